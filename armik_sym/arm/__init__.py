@@ -1,0 +1,19 @@
+"""What an arm is: DH chain, range of motion, segment lengths, and the catalogue of arms."""
+
+from armik_sym.arm.chain import DHChain
+from armik_sym.arm.dh import DHConvention, DHLink, JointType
+from armik_sym.arm.load_arm import load_arm
+from armik_sym.arm.model import Arm
+from armik_sym.arm.range_of_motion import RangeOfMotion
+from armik_sym.arm.segment_lengths import segment_lengths
+
+__all__ = [
+    "Arm",
+    "DHChain",
+    "DHConvention",
+    "DHLink",
+    "JointType",
+    "RangeOfMotion",
+    "load_arm",
+    "segment_lengths",
+]

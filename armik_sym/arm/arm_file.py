@@ -1,0 +1,122 @@
+"""Arms described in TOML files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from armik_sym.arm.chain import DHChain
+from armik_sym.arm.dh import DHConvention, DHLink, JointType
+from armik_sym.arm.model import Arm
+from armik_sym.arm.range_of_motion import RangeOfMotion
+from armik_sym.arm.toml_reader import ANGLE_UNITS, LENGTH_UNITS, limit_pair, check_keys, number, unit_factor
+from armik_sym.errors import ArmFileError, ArmModelError
+
+_ARM_KEYS = (
+    "name", "description", "convention", "angle_unit", "length_unit", "pointing_axis", "base", "tool",
+    "lengths", "joint",
+)  # fmt: skip
+_JOINT_KEYS = ("name", "type", "theta", "d", "a", "alpha", "sign", "range")
+
+
+def arm_from_table(path: Path, table: dict[str, Any]) -> Arm:
+    """Build an arm from a parsed arm file.
+
+    Args:
+        path: The file, for messages.
+        table: Its parsed content: `name`, `convention`, `angle_unit`, `length_unit`, one `[[joint]]`
+            per DH row with `name`, `type`, `theta`, `d`, `a`, `alpha`, `sign`, `range`, and
+            optionally `[lengths]`, `base`, `tool`, `pointing_axis`, `description`.
+
+    Returns:
+        The arm, in SI units.
+
+    Raises:
+        ArmFileError: If the description is incomplete or contradicts itself.
+        UnitError: If a unit is not declared.
+
+    Source:
+        None (file format of this package).
+    """
+    check_keys(path, "the file", table, _ARM_KEYS)
+    angle = unit_factor(path, table, "angle_unit", ANGLE_UNITS)
+    metre = unit_factor(path, table, "length_unit", LENGTH_UNITS)
+    rows = table.get("joint")
+    if not isinstance(rows, list) or not rows:
+        raise ArmFileError(f"{path}: no [[joint]] rows: an arm needs one for each DH row")
+    try:
+        links = tuple(_link(path, i, row, angle, metre) for i, row in enumerate(rows, 1))
+        convention = _choice(path, "convention", table.get("convention"), [c.value for c in DHConvention])
+        limits = [
+            _limits(path, link, row, angle, metre)
+            for link, row in zip(links, rows, strict=True)
+            if link.moves
+        ]
+        given = table.get("lengths", {})
+        lengths = {key: metre * number(path, f"lengths.{key}", value) for key, value in given.items()}
+        return Arm(
+            name=table.get("name", path.stem),
+            chain=DHChain(
+                links,
+                DHConvention(convention),
+                base=_transform(table.get("base"), metre),
+                tool=_transform(table.get("tool"), metre),
+            ),
+            rom=RangeOfMotion(*np.array(limits).reshape(-1, 2).T),
+            lengths=lengths,
+            pointing_axis=np.array(table.get("pointing_axis", [1.0, 0.0, 0.0]), dtype=float),
+            description=str(table.get("description", "")),
+        )
+    except ArmFileError:
+        raise
+    except ArmModelError as error:
+        raise ArmFileError(f"{path}: {error}") from error
+
+
+def _choice(path: Path, where: str, value: object, valid: list[str]) -> str:
+    if value not in valid:
+        raise ArmFileError(f"{path}: {where} is {value!r}: valid are {', '.join(valid)}")
+    return str(value)
+
+
+def _link(path: Path, index: int, row: dict[str, Any], angle: float, metre: float) -> DHLink:
+    where = f"joint {index} ({row.get('name', 'no name')})"
+    check_keys(path, where, row, _JOINT_KEYS)
+    joint = _choice(path, f"{where}: type", row.get("type", "revolute"), [j.value for j in JointType])
+
+    def shift(key: str) -> float | str:
+        value = row.get(key, 0.0)
+        return value if isinstance(value, str) else metre * number(path, f"{where}: {key}", value)
+
+    return DHLink(
+        name=row.get("name", ""),
+        theta=angle * number(path, f"{where}: theta", row.get("theta", 0.0)),
+        d=shift("d"),
+        a=shift("a"),
+        alpha=angle * number(path, f"{where}: alpha", row.get("alpha", 0.0)),
+        joint=JointType(joint),
+        sign=row.get("sign", 1),
+    )
+
+
+def _limits(path: Path, link: DHLink, row: dict[str, Any], angle: float, metre: float) -> tuple[float, float]:
+    where = f"joint {link.name!r}: range"
+    if "range" not in row:
+        raise ArmFileError(f"{path}: {where} is missing: give range = [lower, upper]")
+    if link.joint is JointType.PRISMATIC:
+        return limit_pair(path, where, row["range"], metre, angle=False)
+    return limit_pair(path, where, row["range"], angle)
+
+
+def _transform(value: Any, metre: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+    if value is None:
+        return np.eye(4)
+    try:
+        T = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ArmModelError("base and tool are 4×4 matrices of numbers, row by row") from None
+    if T.shape == (4, 4):
+        T[:3, 3] *= metre
+    return T

@@ -1,0 +1,81 @@
+"""Patients described in TOML files: an arm, with a narrower range of motion."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from armik_sym.arm.model import Arm
+from armik_sym.arm.toml_reader import ANGLE_UNITS, LENGTH_UNITS, limit_pair, check_keys, number, unit_factor
+from armik_sym.errors import ArmFileError, ArmModelError
+
+_PATIENT_KEYS = ("patient", "note", "arm", "angle_unit", "length_unit", "lengths", "range_of_motion")
+
+# Degrees written with a few digits must not miss the arm's own limit by a rounding error.
+_SAME_LIMIT = 1e-9
+
+
+def patient_from_table(path: Path, table: dict[str, Any], arm: Arm) -> Arm:
+    """Narrow an arm's range of motion to a patient's.
+
+    lower_arm ≤ lower_patient ≤ q ≤ upper_patient ≤ upper_arm.
+
+    Args:
+        path: The file, for messages.
+        table: Its parsed content: `arm`, `angle_unit`, `[range_of_motion]` with
+            `joint = [lower, upper]`, optionally `[lengths]` with `length_unit`, `patient`, `note`.
+        arm: The arm the patient file refers to.
+
+    Returns:
+        The arm with the patient's range of motion and segment lengths.
+
+    Raises:
+        ArmFileError: If a joint is unknown, a limit lies outside the arm's own, or lower > upper.
+        UnitError: If a unit is not declared.
+
+    Source:
+        None (file format of this package).
+    """
+    check_keys(path, "the file", table, _PATIENT_KEYS)
+    ranges = table.get("range_of_motion", {})
+    lengths = table.get("lengths", {})
+    lower, upper = arm.rom.lower.copy(), arm.rom.upper.copy()
+    if ranges:
+        factor = unit_factor(path, table, "angle_unit", ANGLE_UNITS)
+        for joint, value in ranges.items():
+            i = _joint_index(path, arm, joint)
+            pair = limit_pair(path, f"range_of_motion.{joint}", value, factor)
+            lower[i], upper[i] = _inside(path, arm, i, pair, factor)
+    try:
+        narrowed = arm.with_rom(lower, upper)
+        if lengths:
+            metre = unit_factor(path, table, "length_unit", LENGTH_UNITS)
+            narrowed = narrowed.with_lengths(
+                **{key: metre * number(path, f"lengths.{key}", value) for key, value in lengths.items()}
+            )
+    except ArmModelError as error:
+        raise ArmFileError(f"{path}: {error}") from error
+    return narrowed
+
+
+def _joint_index(path: Path, arm: Arm, joint: str) -> int:
+    if joint not in arm.joint_names:
+        raise ArmFileError(
+            f"{path}: range_of_motion has unknown joint {joint!r}: arm {arm.name!r} has "
+            f"{', '.join(arm.joint_names)}"
+        )
+    return arm.joint_names.index(joint)
+
+
+def _inside(path: Path, arm: Arm, i: int, pair: tuple[float, float], factor: float) -> tuple[float, float]:
+    own = (float(arm.rom.lower[i]), float(arm.rom.upper[i]))
+    if pair[0] < own[0] - _SAME_LIMIT or pair[1] > own[1] + _SAME_LIMIT:
+        unit = "rad" if factor == 1.0 else "deg"
+        raise ArmFileError(
+            f"{path}: range_of_motion.{arm.joint_names[i]} is [{pair[0] / factor:g}, {pair[1] / factor:g}] "
+            f"{unit}, outside the arm's own [{own[0] / factor:g}, {own[1] / factor:g}] {unit}: a patient "
+            "file can only narrow a range of motion"
+        )
+    return tuple(np.clip(pair, *own).tolist())
