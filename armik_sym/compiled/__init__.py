@@ -1,0 +1,5 @@
+"""C from expressions: generate, compile, cache, load, and export for a robot controller."""
+
+from armik_sym.compiled.kinematics import Kinematics, compile  # noqa: A004
+
+__all__ = ["Kinematics", "compile"]

@@ -1,0 +1,99 @@
+"""Evaluating a function of (q, lengths) for one posture or many, without a Python loop."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from typing import Any, Protocol
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from armik_sym.compiled.build import Library
+
+Array = NDArray[np.float64]
+
+
+class PostureFunction(Protocol):
+    """A function of the posture; segment lengths are fixed."""
+
+    def one(self, q: Array) -> Array:
+        """Evaluate one posture (dof,): a new array (size,)."""
+
+    def many(self, q: Array) -> Array:
+        """Evaluate postures (n, dof): a new array (n, size)."""
+
+
+class _Scratch(threading.local):
+    """Buffers with known addresses, one set per thread: finding an address costs more than a call."""
+
+    def __init__(self, dof: int, size: int) -> None:
+        self.q = np.empty(dof)
+        self.out = np.empty(size)
+        self.q_address = self.q.ctypes.data
+        self.out_address = self.out.ctypes.data
+
+
+class CompiledFunction:
+    """A loop in generated C: out_i = f(q_i, lengths)."""
+
+    def __init__(self, library: Library, function: ca.Function, lengths: Array) -> None:
+        self._library = library
+        self._loop = getattr(library.handle, f"armik_{function.name()}_batch")
+        self._loop.restype = None
+        self._loop.argtypes = [ctypes.c_ssize_t, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]
+        self._lengths = lengths
+        self._lengths_address = lengths.ctypes.data
+        self._size = function.numel_out(0)
+        self._scratch = _Scratch(function.numel_in(0), self._size)
+
+    def one(self, q: Array) -> Array:
+        """Evaluate one posture (dof,): a new array (size,)."""
+        scratch = self._scratch
+        scratch.q[:] = q
+        self._loop(1, scratch.q_address, self._lengths_address, scratch.out_address)
+        return scratch.out.copy()
+
+    def many(self, q: Array) -> Array:
+        """Evaluate postures (n, dof): a new array (n, size); releases the interpreter lock."""
+        out = np.empty((len(q), self._size))
+        self._loop(len(q), q.ctypes.data, self._lengths_address, out.ctypes.data)
+        return out
+
+
+class VirtualMachineFunction:
+    """The same through CasADi's virtual machine, in blocks that CasADi loops over itself."""
+
+    _BLOCK = 256
+
+    def __init__(self, function: ca.Function, lengths: Array) -> None:
+        self._single = function
+        self._block = function.map("block", "serial", self._BLOCK, [1], [])
+        self._lengths = lengths
+        self._size = function.numel_out(0)
+
+    def one(self, q: Array) -> Array:
+        """Evaluate one posture (dof,): a new array (size,)."""
+        out = np.empty(self._size)
+        self._call(self._single, q, out)
+        return out
+
+    def many(self, q: Array) -> Array:
+        """Evaluate postures (n, dof): a new array (n, size)."""
+        out = np.empty((len(q), self._size))
+        whole = len(q) - len(q) % self._BLOCK
+        for start in range(0, whole, self._BLOCK):
+            part = slice(start, start + self._BLOCK)
+            self._call(self._block, q[part], out[part])
+        for i in range(whole, len(q)):
+            self._call(self._single, q[i], out[i])
+        return out
+
+    def _call(self, function: Any, q: Array, out: Array) -> None:
+        buffer, run = function.buffer()
+        buffer.set_arg(0, memoryview(q))
+        if self._lengths.size:
+            buffer.set_arg(1, memoryview(self._lengths))
+        buffer.set_res(0, memoryview(out))
+        run()

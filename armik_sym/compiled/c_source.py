@@ -1,0 +1,155 @@
+"""C99 from a CasADi expression: one plain function, arrays in, arrays out.
+
+Written for this package instead of CasADi's own generator: plain arguments in place of pointer
+tables, no test per output, constants in the precision asked for, no helper types, and nothing but
+straight-line code that a compiler can schedule and that a reviewer of a controller can read.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import casadi as ca
+
+from armik_sym.compiled.operations import C_OPERATIONS
+from armik_sym.errors import OptionError
+
+Precision = Literal["double", "float"]
+
+_SUFFIX = {"double": "", "float": "f"}
+
+
+def check_precision(precision: str) -> Precision:
+    """Return `precision` if it is one that C can be written for.
+
+    Args:
+        precision: "double" or "float".
+
+    Returns:
+        The same word.
+
+    Raises:
+        OptionError: If it is another word.
+
+    Source:
+        None (C99, 6.2.5).
+    """
+    if precision == "double":
+        return "double"
+    if precision == "float":
+        return "float"
+    raise OptionError(f"precision is {precision!r}: valid are double, float")
+
+
+@dataclass(frozen=True)
+class CSignature:
+    """Name and arguments of a generated C function.
+
+    Attributes:
+        name: The function's name.
+        inputs: Name and number of entries of every input array.
+        outputs: Name and number of entries of every output array.
+    """
+
+    name: str
+    inputs: tuple[tuple[str, int], ...]
+    outputs: tuple[tuple[str, int], ...]
+
+    def declaration(self, real: str) -> str:
+        """The C declaration without the final semicolon."""
+        arguments = [f"const {real} *restrict {name}" for name, _ in self.inputs]
+        arguments += [f"{real} *restrict {name}" for name, _ in self.outputs]
+        return f"void {self.name}({', '.join(arguments)})"
+
+
+def signature_of(function: ca.Function, name: str) -> CSignature:
+    """Signature of the C function that `c_function` writes.
+
+    Args:
+        function: A CasADi Function of SX type.
+        name: Name of the C function.
+
+    Returns:
+        The signature.
+
+    Source:
+        None (bookkeeping).
+    """
+    inputs = tuple((function.name_in(i), function.numel_in(i)) for i in range(function.n_in()))
+    outputs = tuple((function.name_out(i), function.numel_out(i)) for i in range(function.n_out()))
+    return CSignature(name, inputs, outputs)
+
+
+def c_constant(value: float, precision: Precision) -> str:
+    """A floating-point literal that reads back to the same number.
+
+    Args:
+        value: The number.
+        precision: "double" or "float".
+
+    Returns:
+        C99 source text.
+
+    Source:
+        None (C99, 6.4.4.2).
+    """
+    if math.isnan(value):
+        return "NAN"
+    if math.isinf(value):
+        return "INFINITY" if value > 0 else "(-INFINITY)"
+    text = f"{value!r}{_SUFFIX[precision]}"
+    return f"({text})" if value < 0 else text
+
+
+def c_function(function: ca.Function, name: str, precision: Precision = "double") -> str:
+    """Write a CasADi Function as one C99 function of plain arrays.
+
+    Every operation becomes one `const` variable, in the order in which CasADi evaluates. All outputs
+    are written, entry by entry in column-major order (of a dense output).
+
+    Args:
+        function: A CasADi Function of SX type with dense inputs and outputs.
+        name: Name of the C function; must be a plain identifier.
+        precision: "double" or "float".
+
+    Returns:
+        C source text of the function, using the macro names `real` and `ONE`.
+
+    Raises:
+        OptionError: If the Function uses an operation that has no C99 spelling.
+
+    Source:
+        None (C99).
+    """
+    signature = signature_of(function, name)
+    value_of: dict[int, str] = {}
+    used = {input_name: False for input_name, _ in signature.inputs}
+    lines: list[str] = []
+    for k in range(function.n_instructions()):
+        operation = function.instruction_id(k)
+        source, target = function.instruction_input(k), function.instruction_output(k)
+        if operation == ca.OP_OUTPUT:
+            lines.append(f"  {signature.outputs[target[0]][0]}[{target[1]}] = {value_of[source[0]]};")
+        elif operation == ca.OP_INPUT:
+            input_name = signature.inputs[source[0]][0]
+            used[input_name] = True
+            value_of[target[0]] = f"v{k}"
+            lines.append(f"  const real v{k} = {input_name}[{source[1]}];")
+        elif operation == ca.OP_CONST:
+            value_of[target[0]] = c_constant(function.instruction_constant(k), precision)
+        else:
+            text = _spell(operation, [value_of[i] for i in source], precision)
+            value_of[target[0]] = f"v{k}"
+            lines.append(f"  const real v{k} = {text};")
+    unused = [f"  (void){input_name};" for input_name, seen in used.items() if not seen]
+    return "\n".join([f"{signature.declaration('real')} {{", *unused, *lines, "}", ""])
+
+
+def _spell(operation: int, operands: list[str], precision: Precision) -> str:
+    template = C_OPERATIONS.get(operation)
+    if template is None:
+        names = [key for key in dir(ca) if key.startswith("OP_") and getattr(ca, key) == operation]
+        raise OptionError(f"CasADi operation {names[0] if names else operation} has no C99 spelling here")
+    return template.format(*operands, f=_SUFFIX[precision])
