@@ -1,5 +1,6 @@
 """What an arm is: DH chain, range of motion, segment lengths, and the catalogue of arms."""
 
+from armik_sym.arm import catalog
 from armik_sym.arm.chain import DHChain
 from armik_sym.arm.dh import DHConvention, DHLink, JointType
 from armik_sym.arm.load_arm import load_arm
@@ -14,6 +15,7 @@ __all__ = [
     "DHLink",
     "JointType",
     "RangeOfMotion",
+    "catalog",
     "load_arm",
     "segment_lengths",
 ]

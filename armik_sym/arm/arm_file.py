@@ -6,13 +6,22 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armik_sym.arm.chain import DHChain
 from armik_sym.arm.dh import DHConvention, DHLink, JointType
 from armik_sym.arm.model import Arm
 from armik_sym.arm.range_of_motion import RangeOfMotion
-from armik_sym.arm.toml_reader import ANGLE_UNITS, LENGTH_UNITS, limit_pair, check_keys, number, unit_factor
-from armik_sym.errors import ArmFileError, ArmModelError
+from armik_sym.arm.toml_reader import (
+    ANGLE_UNITS,
+    LENGTH_UNITS,
+    check_keys,
+    limit_pair,
+    number,
+    sub_table,
+    unit_factor,
+)
+from armik_sym.errors import ArmFileError, ArmModelError, UnknownNameError
 
 _ARM_KEYS = (
     "name", "description", "convention", "angle_unit", "length_unit", "pointing_axis", "base", "tool",
@@ -54,24 +63,24 @@ def arm_from_table(path: Path, table: dict[str, Any]) -> Arm:
             for link, row in zip(links, rows, strict=True)
             if link.moves
         ]
-        given = table.get("lengths", {})
+        given = sub_table(path, table, "lengths")
         lengths = {key: metre * number(path, f"lengths.{key}", value) for key, value in given.items()}
         return Arm(
             name=table.get("name", path.stem),
             chain=DHChain(
                 links,
                 DHConvention(convention),
-                base=_transform(table.get("base"), metre),
-                tool=_transform(table.get("tool"), metre),
+                base=_transform(path, "base", table.get("base"), metre),
+                tool=_transform(path, "tool", table.get("tool"), metre),
             ),
             rom=RangeOfMotion(*np.array(limits).reshape(-1, 2).T),
             lengths=lengths,
-            pointing_axis=np.array(table.get("pointing_axis", [1.0, 0.0, 0.0]), dtype=float),
+            pointing_axis=_numbers(path, "pointing_axis", table.get("pointing_axis", [1.0, 0.0, 0.0])),
             description=str(table.get("description", "")),
         )
     except ArmFileError:
         raise
-    except ArmModelError as error:
+    except (ArmModelError, UnknownNameError) as error:
         raise ArmFileError(f"{path}: {error}") from error
 
 
@@ -81,7 +90,9 @@ def _choice(path: Path, where: str, value: object, valid: list[str]) -> str:
     return str(value)
 
 
-def _link(path: Path, index: int, row: dict[str, Any], angle: float, metre: float) -> DHLink:
+def _link(path: Path, index: int, row: Any, angle: float, metre: float) -> DHLink:
+    if not isinstance(row, dict):
+        raise ArmFileError(f"{path}: joint {index} is {row!r}, expected a table [[joint]]")
     where = f"joint {index} ({row.get('name', 'no name')})"
     check_keys(path, where, row, _JOINT_KEYS)
     joint = _choice(path, f"{where}: type", row.get("type", "revolute"), [j.value for j in JointType])
@@ -110,13 +121,24 @@ def _limits(path: Path, link: DHLink, row: dict[str, Any], angle: float, metre: 
     return limit_pair(path, where, row["range"], angle)
 
 
-def _transform(value: Any, metre: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _transform(path: Path, where: str, value: Any, metre: float) -> NDArray[np.float64]:
     if value is None:
         return np.eye(4)
-    try:
-        T = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ArmModelError("base and tool are 4×4 matrices of numbers, row by row") from None
+    T = _numbers(path, where, value)
     if T.shape == (4, 4):
         T[:3, 3] *= metre
     return T
+
+
+def _numbers(path: Path, where: str, value: Any) -> NDArray[np.float64]:
+    """A list of numbers, or a list of rows of numbers, as an array."""
+    if not isinstance(value, list):
+        raise ArmFileError(f"{path}: {where} is {value!r}, expected a list of numbers")
+    rows = [
+        [number(path, where, x) for x in item] if isinstance(item, list) else number(path, where, item)
+        for item in value
+    ]
+    try:
+        return np.array(rows, dtype=np.float64)
+    except ValueError:
+        raise ArmFileError(f"{path}: {where} has rows of different length: {value!r}") from None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from dataclasses import dataclass
 from enum import Enum
 
@@ -75,8 +76,9 @@ class DHLink:
                 check_identifier(value, "segment length")
             else:
                 self._check_number(key)
-        if self.sign not in (1, -1):
+        if isinstance(self.sign, bool) or self.sign not in (1, -1):
             raise ArmModelError(f"joint {self.name!r}: sign is {self.sign!r}, expected 1 or -1")
+        object.__setattr__(self, "sign", int(self.sign))
         if not isinstance(self.joint, JointType):
             raise ArmModelError(f"joint {self.name!r}: joint is {self.joint!r}, expected a JointType")
         if self.joint is JointType.PRISMATIC and isinstance(self.d, str):
@@ -86,8 +88,14 @@ class DHLink:
 
     def _check_number(self, key: str) -> None:
         value = getattr(self, key)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        numeric = isinstance(value, numbers.Real) and not isinstance(value, bool)
+        try:
+            number = float(value) if numeric else math.nan
+        except OverflowError:
+            number = math.nan
+        if not math.isfinite(number):
             raise ArmModelError(f"joint {self.name!r}: {key} is {value!r}, expected a finite number")
+        object.__setattr__(self, key, number)
 
     @property
     def moves(self) -> bool:

@@ -10,7 +10,7 @@ from armik_sym.arm.catalog import lookup
 from armik_sym.arm.model import Arm
 from armik_sym.arm.patient_file import patient_from_table
 from armik_sym.arm.toml_reader import load_toml
-from armik_sym.errors import ArmFileError
+from armik_sym.errors import ArmFileError, UnknownNameError
 
 
 def load_arm(path: str | os.PathLike[str]) -> Arm:
@@ -35,7 +35,9 @@ def load_arm(path: str | os.PathLike[str]) -> Arm:
         None (file format of this package, see `docs/files.md`).
     """
     target = Path(path)
-    if target.suffix.lower() != ".toml" and not target.exists():
+    # A folder "ehmcs" in the working directory (say, of generated C) must not hide the arm of that name.
+    named = os.fspath(path) in lookup.names()
+    if named or (target.suffix.lower() != ".toml" and not target.exists()):
         return lookup.by_name(str(path))
     return _load(target, seen=())
 
@@ -53,6 +55,8 @@ def _load(path: Path, seen: tuple[Path, ...]) -> Arm:
         )
     if parent.lower().endswith(".toml"):
         arm = _load(path.parent / parent, (*seen, path.resolve()))
-    else:
+    elif parent in lookup.names():
         arm = lookup.by_name(parent)
+    else:
+        raise UnknownNameError(f"arm in {path}", parent, lookup.names())
     return patient_from_table(path, table, arm)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -54,7 +55,12 @@ class Arm:
                 f"{self.rom.dof}"
             )
         self._check_lengths()
-        axis = np.array(self.pointing_axis, dtype=np.float64)
+        try:
+            axis = np.array(self.pointing_axis, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise ArmModelError(
+                f"arm {self.name!r}: pointing_axis is {self.pointing_axis!r}, expected a unit vector (3,)"
+            ) from None
         if axis.shape != (3,) or not math.isclose(float(np.linalg.norm(axis)), 1.0, abs_tol=1e-9):
             raise ArmModelError(f"arm {self.name!r}: pointing_axis is {axis}, expected a unit vector (3,)")
         axis.flags.writeable = False
@@ -69,14 +75,24 @@ class Arm:
             value = self.lengths.get(name)
             if value is None:
                 raise ArmModelError(f"arm {self.name!r}: segment length {name!r} is missing (in metres)")
-            if not math.isfinite(value) or not 0.0 <= value <= _LONGEST_SEGMENT:
-                hint = f"; {value / 1000:g} m if this is in millimetres" if value > _LONGEST_SEGMENT else ""
+            if isinstance(value, bool) or not isinstance(value, numbers.Real):
+                raise ArmModelError(
+                    f"arm {self.name!r}: segment length {name!r} is {value!r}, expected a number of metres"
+                )
+            if not 0.0 <= value <= _LONGEST_SEGMENT:
+                too_long = _LONGEST_SEGMENT < value <= 1000 * _LONGEST_SEGMENT
+                hint = f"; {value / 1000:g} m if this is in millimetres" if too_long else ""
                 raise ArmModelError(
                     f"arm {self.name!r}: segment length {name!r} is {value:g}, expected 0 to "
                     f"{_LONGEST_SEGMENT:g} m{hint}"
                 )
         ordered = {name: float(self.lengths[name]) for name in needed}
         object.__setattr__(self, "lengths", MappingProxyType(ordered))
+
+    def __reduce__(self) -> tuple[type[Arm], tuple[object, ...]]:
+        # The read-only view of the lengths cannot be pickled; workers and copies need the arm to be.
+        lengths = dict(self.lengths)
+        return Arm, (self.name, self.chain, self.rom, lengths, self.pointing_axis, self.description)
 
     @property
     def dof(self) -> int:

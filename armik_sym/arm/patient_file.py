@@ -7,9 +7,18 @@ from typing import Any
 
 import numpy as np
 
+from armik_sym.arm.dh import JointType
 from armik_sym.arm.model import Arm
-from armik_sym.arm.toml_reader import ANGLE_UNITS, LENGTH_UNITS, limit_pair, check_keys, number, unit_factor
-from armik_sym.errors import ArmFileError, ArmModelError
+from armik_sym.arm.toml_reader import (
+    ANGLE_UNITS,
+    LENGTH_UNITS,
+    check_keys,
+    limit_pair,
+    number,
+    sub_table,
+    unit_factor,
+)
+from armik_sym.errors import ArmFileError, ArmModelError, UnknownNameError
 
 _PATIENT_KEYS = ("patient", "note", "arm", "angle_unit", "length_unit", "lengths", "range_of_motion")
 
@@ -39,15 +48,16 @@ def patient_from_table(path: Path, table: dict[str, Any], arm: Arm) -> Arm:
         None (file format of this package).
     """
     check_keys(path, "the file", table, _PATIENT_KEYS)
-    ranges = table.get("range_of_motion", {})
-    lengths = table.get("lengths", {})
+    ranges = sub_table(path, table, "range_of_motion")
+    lengths = sub_table(path, table, "lengths")
     lower, upper = arm.rom.lower.copy(), arm.rom.upper.copy()
-    if ranges:
-        factor = unit_factor(path, table, "angle_unit", ANGLE_UNITS)
-        for joint, value in ranges.items():
-            i = _joint_index(path, arm, joint)
-            pair = limit_pair(path, f"range_of_motion.{joint}", value, factor)
-            lower[i], upper[i] = _inside(path, arm, i, pair, factor)
+    for joint, value in ranges.items():
+        i = _joint_index(path, arm, joint)
+        angle = arm.chain.moving_links[i].joint is JointType.REVOLUTE
+        key, units = ("angle_unit", ANGLE_UNITS) if angle else ("length_unit", LENGTH_UNITS)
+        factor = unit_factor(path, table, key, units)
+        pair = limit_pair(path, f"range_of_motion.{joint}", value, factor, angle=angle)
+        lower[i], upper[i] = _inside(path, arm, i, pair, factor, unit=table[key])
     try:
         narrowed = arm.with_rom(lower, upper)
         if lengths:
@@ -55,7 +65,7 @@ def patient_from_table(path: Path, table: dict[str, Any], arm: Arm) -> Arm:
             narrowed = narrowed.with_lengths(
                 **{key: metre * number(path, f"lengths.{key}", value) for key, value in lengths.items()}
             )
-    except ArmModelError as error:
+    except (ArmModelError, UnknownNameError) as error:
         raise ArmFileError(f"{path}: {error}") from error
     return narrowed
 
@@ -69,10 +79,11 @@ def _joint_index(path: Path, arm: Arm, joint: str) -> int:
     return arm.joint_names.index(joint)
 
 
-def _inside(path: Path, arm: Arm, i: int, pair: tuple[float, float], factor: float) -> tuple[float, float]:
+def _inside(
+    path: Path, arm: Arm, i: int, pair: tuple[float, float], factor: float, unit: str
+) -> tuple[float, float]:
     own = (float(arm.rom.lower[i]), float(arm.rom.upper[i]))
     if pair[0] < own[0] - _SAME_LIMIT or pair[1] > own[1] + _SAME_LIMIT:
-        unit = "rad" if factor == 1.0 else "deg"
         raise ArmFileError(
             f"{path}: range_of_motion.{arm.joint_names[i]} is [{pair[0] / factor:g}, {pair[1] / factor:g}] "
             f"{unit}, outside the arm's own [{own[0] / factor:g}, {own[1] / factor:g}] {unit}: a patient "

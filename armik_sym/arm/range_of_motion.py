@@ -30,7 +30,12 @@ class RangeOfMotion:
 
     def __post_init__(self) -> None:
         for key in ("lower", "upper"):
-            values = np.array(getattr(self, key), dtype=np.float64)
+            try:
+                values = np.array(getattr(self, key), dtype=np.float64)
+            except (TypeError, ValueError):
+                raise ArmModelError(
+                    f"range of motion: {key} is {getattr(self, key)!r}, expected numbers, shape (dof,)"
+                ) from None
             if values.ndim != 1 or values.size == 0:
                 raise ArmModelError(f"range of motion: {key} has shape {values.shape}, expected (dof,)")
             if not np.all(np.isfinite(values)):

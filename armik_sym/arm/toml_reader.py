@@ -19,6 +19,7 @@ ANGLE_UNITS: Mapping[str, float] = {"rad": 1.0, "deg": math.pi / 180.0}
 LENGTH_UNITS: Mapping[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 
 _FULL_TURN = 2 * math.pi
+_LARGEST = sys.float_info.max
 
 
 def load_toml(path: Path) -> dict[str, Any]:
@@ -37,7 +38,7 @@ def load_toml(path: Path) -> dict[str, Any]:
         TOML 1.0.
     """
     try:
-        return dict(tomllib.loads(path.read_text(encoding="utf-8")))
+        return dict(tomllib.loads(path.read_text(encoding="utf-8-sig")))
     except FileNotFoundError:
         raise ArmFileError(f"{path}: no such file") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -66,6 +67,29 @@ def check_keys(path: Path, where: str, table: Mapping[str, Any], allowed: Collec
         raise ArmFileError(
             f"{path}: {where} has unknown key {unknown[0]!r}: allowed are {', '.join(allowed)}"
         )
+
+
+def sub_table(path: Path, table: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """The table under a key, empty if the key is absent.
+
+    Args:
+        path: The file, for the message.
+        table: The parsed file.
+        key: The key of the table.
+
+    Returns:
+        The table.
+
+    Raises:
+        ArmFileError: If the value is no table.
+
+    Source:
+        None (bookkeeping).
+    """
+    value = table.get(key, {})
+    if not isinstance(value, dict):
+        raise ArmFileError(f"{path}: {key} is {value!r}, expected a table [{key}]")
+    return value
 
 
 def unit_factor(path: Path, table: Mapping[str, Any], key: str, units: Mapping[str, float]) -> float:
@@ -113,7 +137,7 @@ def number(path: Path, where: str, value: object) -> float:
     Source:
         None (bookkeeping).
     """
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= _LARGEST:
         raise ArmFileError(f"{path}: {where} is {value!r}, expected a finite number")
     return float(value)
 

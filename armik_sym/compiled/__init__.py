@@ -1,5 +1,6 @@
 """C from expressions: generate, compile, cache, load, and export for a robot controller."""
 
-from armik_sym.compiled.kinematics import Kinematics, compile  # noqa: A004
+from armik_sym.compiled.emit import emit_c
+from armik_sym.compiled.kinematics import Kinematics, compile
 
-__all__ = ["Kinematics", "compile"]
+__all__ = ["Kinematics", "compile", "emit_c"]

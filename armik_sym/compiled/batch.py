@@ -92,8 +92,8 @@ class VirtualMachineFunction:
 
     def _call(self, function: Any, q: Array, out: Array) -> None:
         buffer, run = function.buffer()
-        buffer.set_arg(0, memoryview(q))
+        buffer.set_arg(0, q.data)
         if self._lengths.size:
-            buffer.set_arg(1, memoryview(self._lengths))
-        buffer.set_res(0, memoryview(out))
+            buffer.set_arg(1, self._lengths.data)
+        buffer.set_res(0, out.data)
         run()

@@ -7,40 +7,13 @@ straight-line code that a compiler can schedule and that a reviewer of a control
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from typing import Literal
 
 import casadi as ca
 
+from armik_sym.compiled.c_constant import SUFFIX, Precision, c_constant
 from armik_sym.compiled.operations import C_OPERATIONS
 from armik_sym.errors import OptionError
-
-Precision = Literal["double", "float"]
-
-_SUFFIX = {"double": "", "float": "f"}
-
-
-def check_precision(precision: str) -> Precision:
-    """Return `precision` if it is one that C can be written for.
-
-    Args:
-        precision: "double" or "float".
-
-    Returns:
-        The same word.
-
-    Raises:
-        OptionError: If it is another word.
-
-    Source:
-        None (C99, 6.2.5).
-    """
-    if precision == "double":
-        return "double"
-    if precision == "float":
-        return "float"
-    raise OptionError(f"precision is {precision!r}: valid are double, float")
 
 
 @dataclass(frozen=True)
@@ -82,27 +55,6 @@ def signature_of(function: ca.Function, name: str) -> CSignature:
     return CSignature(name, inputs, outputs)
 
 
-def c_constant(value: float, precision: Precision) -> str:
-    """A floating-point literal that reads back to the same number.
-
-    Args:
-        value: The number.
-        precision: "double" or "float".
-
-    Returns:
-        C99 source text.
-
-    Source:
-        None (C99, 6.4.4.2).
-    """
-    if math.isnan(value):
-        return "NAN"
-    if math.isinf(value):
-        return "INFINITY" if value > 0 else "(-INFINITY)"
-    text = f"{value!r}{_SUFFIX[precision]}"
-    return f"({text})" if value < 0 else text
-
-
 def c_function(function: ca.Function, name: str, precision: Precision = "double") -> str:
     """Write a CasADi Function as one C99 function of plain arrays.
 
@@ -118,11 +70,13 @@ def c_function(function: ca.Function, name: str, precision: Precision = "double"
         C source text of the function, using the macro names `real` and `ONE`.
 
     Raises:
-        OptionError: If the Function uses an operation that has no C99 spelling.
+        OptionError: If the Function is no SX function with dense inputs and outputs, or uses an
+            operation that has no C99 spelling.
 
     Source:
         None (C99).
     """
+    _check_dense(function)
     signature = signature_of(function, name)
     value_of: dict[int, str] = {}
     used = {input_name: False for input_name, _ in signature.inputs}
@@ -147,9 +101,19 @@ def c_function(function: ca.Function, name: str, precision: Precision = "double"
     return "\n".join([f"{signature.declaration('real')} {{", *unused, *lines, "}", ""])
 
 
+def _check_dense(function: ca.Function) -> None:
+    if not function.is_a("SXFunction"):
+        raise OptionError(f"function {function.name()!r} is no SX function: expand() makes it one")
+    patterns = {function.name_in(i): function.sparsity_in(i) for i in range(function.n_in())}
+    patterns |= {function.name_out(i): function.sparsity_out(i) for i in range(function.n_out())}
+    sparse = [key for key, pattern in patterns.items() if not pattern.is_dense()]
+    if sparse:
+        raise OptionError(f"function {function.name()!r}: {sparse[0]!r} is sparse, densify() it")
+
+
 def _spell(operation: int, operands: list[str], precision: Precision) -> str:
     template = C_OPERATIONS.get(operation)
     if template is None:
         names = [key for key in dir(ca) if key.startswith("OP_") and getattr(ca, key) == operation]
         raise OptionError(f"CasADi operation {names[0] if names else operation} has no C99 spelling here")
-    return template.format(*operands, f=_SUFFIX[precision])
+    return template.format(*operands, f=SUFFIX[precision])

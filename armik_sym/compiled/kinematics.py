@@ -146,7 +146,7 @@ class Kinematics:
         return function.many(postures).reshape((len(postures), *shape))
 
 
-def compile(arm: Arm, backend: Backend = "auto") -> Kinematics:  # noqa: A001
+def compile(arm: Arm, backend: Backend = "auto") -> Kinematics:
     """Compile the kinematics of an arm, once for all arms of the same structure.
 
     Expressions become C, C becomes a shared library in a private per-user cache. Segment lengths are

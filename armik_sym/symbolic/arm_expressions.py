@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -66,7 +66,7 @@ class ArmExpressions:
         Source:
             Siciliano et al., Robotics (2009), §3.6.
         """
-        choices = {
+        choices: dict[str, Callable[[ca.SX], ca.SX]] = {
             "roll_pitch_yaw": roll_pitch_yaw,
             "quaternion": quaternion,
             "matrix": lambda R: ca.vec(R.T),
@@ -91,7 +91,7 @@ class ArmExpressions:
         Source:
             None (packaging).
         """
-        expressions = {
+        expressions: dict[str, Callable[[], ca.SX]] = {
             "pose": lambda: self.T_base_hand,
             "position": lambda: self.position,
             "rotation": lambda: self.rotation,

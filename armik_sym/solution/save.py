@@ -1,0 +1,94 @@
+"""Writing a solution to a file."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from armik_sym._version import __version__
+from armik_sym.errors import MotionFileError
+
+if TYPE_CHECKING:
+    from armik_sym.solution.solution import Solution
+
+
+def save(solution: Solution, path: Path) -> Path:
+    """Write a solution as `.csv` or `.npz`; see `Solution.save`.
+
+    Args:
+        solution: The solution.
+        path: The file.
+
+    Returns:
+        The path written.
+
+    Raises:
+        MotionFileError: If the ending is unknown or the file cannot be written.
+
+    Source:
+        None (file formats of this package).
+    """
+    writers: dict[str, Callable[[Solution, Path], None]] = {".csv": _write_csv, ".npz": _write_npz}
+    writer = writers.get(path.suffix.lower())
+    if writer is None:
+        raise MotionFileError(
+            f"{path}: cannot write {path.suffix or 'a file without ending'!r}: valid are .csv, .npz"
+        )
+    try:
+        writer(solution, path)
+    except OSError as error:
+        raise MotionFileError(f"{path}: cannot be written: {error.strerror}") from error
+    return path
+
+
+def _record(solution: Solution) -> dict[str, object]:
+    return {
+        "program": f"armik_sym {__version__}",
+        "arm": solution.arm.name,
+        "lengths_m": dict(solution.arm.lengths),
+        "method": solution.method,
+        "orientation": solution.orientation.value,
+        "seed": solution.seed,
+        "ok": solution.ok,
+        "reasons": list(solution.reasons),
+        "status": solution.status,
+    }
+
+
+def _write_csv(solution: Solution, path: Path) -> None:
+    columns = ["time [s]", *(f"{name} [deg]" for name in solution.arm.joint_names)]
+    columns += ["position_error [mm]", "rotation_error [deg]"]
+    values = np.column_stack(
+        [
+            solution.time,
+            np.rad2deg(solution.q),
+            1000 * solution.position_error,
+            np.rad2deg(solution.rotation_error),
+        ]
+    )
+    with path.open("w", encoding="utf-8", newline="") as file:
+        file.write(f"# {json.dumps(_record(solution))}\n")
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([[repr(float(value)) for value in row] for row in values])
+
+
+def _write_npz(solution: Solution, path: Path) -> None:
+    np.savez_compressed(
+        path,
+        time=solution.time,
+        q=solution.q,
+        joint_names=np.array(solution.arm.joint_names),
+        lower=solution.arm.rom.lower,
+        upper=solution.arm.rom.upper,
+        path_position=solution.path.position,
+        path_rotation=np.empty((0, 3, 3)) if solution.path.rotation is None else solution.path.rotation,
+        position_error=solution.position_error,
+        rotation_error=solution.rotation_error,
+        record=np.array(json.dumps(_record(solution))),
+    )

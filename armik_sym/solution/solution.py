@@ -1,0 +1,160 @@
+"""A solved joint trajectory that judges itself."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armik_sym.arm.model import Arm
+from armik_sym.motion.hand_path import HandPath
+from armik_sym.solution.motion_rates import arc_length, joint_acceleration, joint_speed
+from armik_sym.solution.timing import Timing
+from armik_sym.solution.tracking_error import tracking_errors
+from armik_sym.solution.verdict import Requirements, reasons_against
+from armik_sym.symbolic import Orientation
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Joint angles over time, and what they are worth.
+
+    Everything but the first group is computed here from the angles, by a plain product of transforms,
+    not copied from any solver.
+
+    Attributes:
+        arm: The arm.
+        path: The hand path asked for.
+        q: Joint angles, shape (n, dof), in [rad].
+        method: Name of the method.
+        orientation: What of the path's orientation was tracked.
+        requirements: What `ok` is judged by.
+        seed: Seed of everything random in the solve.
+        timing: Where the time went.
+        status: The solver's own word.
+        iterations: Iterations of the solver.
+        settings: Options used, for the record.
+    """
+
+    arm: Arm
+    path: HandPath
+    q: Array
+    method: str
+    orientation: Orientation
+    requirements: Requirements
+    seed: int = 0
+    timing: Timing = field(default_factory=Timing)
+    status: str = ""
+    iterations: int = 0
+    settings: Mapping[str, object] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        q = np.array(self.q, dtype=np.float64)
+        q.flags.writeable = False
+        object.__setattr__(self, "q", q)
+
+    @property
+    def time(self) -> Array:
+        """Time stamps, shape (n,), in [s]."""
+        return self.path.time
+
+    @cached_property
+    def _errors(self) -> tuple[Array, Array]:
+        return tracking_errors(self.arm, self.q, self.path.position, self.path.rotation, self.orientation)
+
+    @property
+    def position_error(self) -> Array:
+        """Distance from hand to path, shape (n,), in [m]."""
+        return self._errors[0]
+
+    @property
+    def rotation_error(self) -> Array:
+        """Angle between hand and path, shape (n,), in [rad]; 0 where orientation is not tracked."""
+        return self._errors[1]
+
+    @cached_property
+    def rom_margin(self) -> Array:
+        """Smallest distance of each joint to its limits, shape (dof,), in [rad]; negative outside."""
+        margin: Array = self.arm.rom.margin(self.q).min(axis=0)
+        return margin
+
+    @cached_property
+    def max_step(self) -> Array:
+        """Largest change of each joint between two samples, shape (dof,), in [rad]."""
+        step: Array = np.abs(np.diff(self.q, axis=0)).max(axis=0, initial=0.0)
+        return step
+
+    @cached_property
+    def max_speed(self) -> Array:
+        """Largest speed of each joint, shape (dof,), in [rad/s]."""
+        speed: Array = np.abs(joint_speed(self.time, self.q)).max(axis=0, initial=0.0)
+        return speed
+
+    @cached_property
+    def max_acceleration(self) -> Array:
+        """Largest acceleration of each joint, shape (dof,), in [rad/s²]."""
+        peak: Array = np.abs(joint_acceleration(self.time, self.q)).max(axis=0, initial=0.0)
+        return peak
+
+    @cached_property
+    def arc_length(self) -> float:
+        """Length of the way through joint space, in [rad]."""
+        return arc_length(self.q)
+
+    @cached_property
+    def reasons(self) -> tuple[str, ...]:
+        """What speaks against the solution, one sentence each; empty if nothing does."""
+        return reasons_against(self)
+
+    @property
+    def ok(self) -> bool:
+        """True if the solution is what was asked for."""
+        return not self.reasons
+
+    def __str__(self) -> str:
+        from armik_sym.solution.text import summary
+
+        return summary(self)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the solution to a file: `.csv` (degrees, units in the header) or `.npz` (SI).
+
+        Args:
+            path: The file; its ending chooses the format.
+
+        Returns:
+            The path written.
+
+        Raises:
+            MotionFileError: If the ending is unknown or the file cannot be written.
+
+        Source:
+            None (file formats of this package).
+        """
+        from armik_sym.solution.save import save
+
+        return save(self, Path(path))
+
+    def plot(self) -> Figure:
+        """Joint angles with their range of motion, tracking error and speed, in one figure.
+
+        Returns:
+            A matplotlib figure; angles in [deg], errors in [mm] and [deg].
+
+        Source:
+            Compare Nguyen 2021, Figs. 9-13.
+        """
+        from armik_sym.report.solution_figure import solution_figure
+
+        return solution_figure(self)

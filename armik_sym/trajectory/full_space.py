@@ -1,0 +1,155 @@
+"""The whole-trajectory problem in full space: every joint angle of every sample is a variable.
+
+    minimise   ½ xᵀ P x + cᵀ x                      (smoothness, posture, soft tracking)
+    subject to r(q_k, target_k) - e_k = 0           for every sample k (e = 0 for exact tracking)
+               -v ≤ D q ≤ v,  -a ≤ D2 q ≤ a         if asked for
+               lower ≤ q_k ≤ upper                  as variable bounds
+
+The tracking equations and their derivatives are called sample by sample as compiled functions;
+everything else is constant sparse matrices. So building costs little, and no length compiles anew.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from armik_sym.compiled.stage_functions import StageFunctions
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class QuadraticCost:
+    """½ xᵀ P x + cᵀ x.
+
+    Attributes:
+        P: Symmetric sparse matrix, shape (n_x, n_x).
+        c: Shape (n_x,).
+    """
+
+    P: sp.csc_array
+    c: Array
+
+
+@dataclass(frozen=True, eq=False)
+class FullSpaceProblem:
+    """A nonlinear program as CasADi functions of x, with exact sparse derivatives.
+
+    Attributes:
+        x: Variables, MX: angles sample by sample, then tracking errors if tracking is soft.
+        f: Objective, MX.
+        g: Constraints, MX: tracking sample by sample, then rate rows.
+        gradient: Function (x, p) → (f, df/dx).
+        jacobian: Function (x, p) → (g, dg/dx).
+        hessian: Function (x, p, λ_f, λ_g) → upper triangle of the Lagrangian's Hessian.
+    """
+
+    x: ca.MX
+    f: ca.MX
+    g: ca.MX
+    gradient: ca.Function
+    jacobian: ca.Function
+    hessian: ca.Function
+
+
+def full_space_problem(
+    stage: StageFunctions,
+    lengths: Array,
+    targets: Array,
+    dof: int,
+    cost: QuadraticCost,
+    rate_rows: sp.csr_array,
+    *,
+    soft: bool,
+) -> FullSpaceProblem:
+    """Assemble the problem from compiled stage functions and constant matrices.
+
+    Args:
+        stage: Tracking equations of one sample.
+        lengths: Segment lengths, shape (n_lengths,), in [m].
+        targets: Targets, shape (n, target_size).
+        dof: Joints per sample.
+        cost: Quadratic objective over all variables.
+        rate_rows: Rows on the angles, shape (n_rates, n·dof).
+        soft: True if tracking errors e are variables.
+
+    Returns:
+        The problem.
+
+    Source:
+        None (direct transcription).
+    """
+    n = len(targets)
+    equations = stage.residual.numel_out(0)
+    x = ca.MX.sym("x", cost.P.shape[0])
+    q = ca.reshape(x[: n * dof], dof, n)
+    fixed = (ca.DM(lengths), ca.DM(targets.T))
+
+    P = to_casadi(cost.P)
+    Px = ca.mtimes(P, x)
+    f = 0.5 * ca.dot(x, Px) + ca.dot(ca.DM(cost.c), x)
+    residual = ca.vec(_map(stage.residual, n)(q, *fixed))
+    if soft:
+        residual = residual - x[n * dof :]
+    A = to_casadi(rate_rows)
+    g = ca.vertcat(residual, ca.mtimes(A, x[: n * dof]))
+
+    J = ca.MX(_block_diagonal(equations, dof, n), ca.vec(_map(stage.jacobian, n)(q, *fixed)))
+    J = ca.vertcat(J, A)
+    if soft:
+        below = ca.DM(A.shape[0], n * equations)
+        J = ca.horzcat(J, ca.vertcat(-ca.DM.eye(n * equations), below))
+
+    lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", g.shape[0])
+    multipliers = ca.reshape(lam_g[: n * equations], equations, n)
+    curvature = ca.vec(_map(stage.hessian, n)(q, *fixed, multipliers))
+    H = ca.triu(ca.MX(_block_diagonal(dof, dof, n), curvature))
+    if soft:
+        H = ca.diagcat(H, ca.DM(n * equations, n * equations))
+    H = H + lam_f * ca.triu(P)
+
+    p = ca.MX.sym("p", 0)
+    return FullSpaceProblem(
+        x=x,
+        f=f,
+        g=g,
+        gradient=ca.Function("grad_f", [x, p], [f, Px + ca.DM(cost.c)]),
+        jacobian=ca.Function("jac_g", [x, p], [g, J]),
+        hessian=ca.Function("hess_lag", [x, p, lam_f, lam_g], [H]),
+    )
+
+
+def to_casadi(matrix: sp.sparray) -> ca.DM:
+    """A SciPy sparse matrix as a CasADi one, explicit zeros removed.
+
+    Args:
+        matrix: Sparse matrix, shape (m, n).
+
+    Returns:
+        DM of shape (m, n).
+
+    Source:
+        None (both store compressed columns).
+    """
+    csc = sp.csc_array(matrix)
+    csc.eliminate_zeros()
+    csc.sort_indices()
+    sparsity = ca.Sparsity(*csc.shape, csc.indptr.tolist(), csc.indices.tolist())
+    return ca.DM(sparsity, csc.data)
+
+
+def _map(function: ca.Function, n: int) -> ca.Function:
+    # Argument 1, the segment lengths, is the same for all samples.
+    return function.map(f"{function.name()}_map", "serial", n, [1], [])
+
+
+def _block_diagonal(rows: int, columns: int, n: int) -> ca.Sparsity:
+    """Dense blocks on the diagonal; nonzeros then run block by block, each column by column."""
+    column_pointers = np.arange(n * columns + 1) * rows
+    row_indices = (np.arange(n)[:, None, None] * rows + np.arange(rows)).repeat(columns, axis=1).ravel()
+    return ca.Sparsity(n * rows, n * columns, column_pointers.tolist(), row_indices.tolist())

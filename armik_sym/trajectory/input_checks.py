@@ -1,0 +1,75 @@
+"""Refusing tasks that contradict themselves, before any solver starts."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from armik_sym.arm.dh import JointType
+from armik_sym.arm.model import Arm
+from armik_sym.errors import LimitError, ShapeError
+from armik_sym.motion.hand_path import HandPath
+
+Array = NDArray[np.float64]
+
+
+def check_start(arm: Arm, start: ArrayLike | None) -> Array | None:
+    """A start posture inside the range of motion: lower ≤ start ≤ upper.
+
+    Args:
+        arm: The arm.
+        start: Posture, shape (dof,), in [rad], or None.
+
+    Returns:
+        The posture, or None.
+
+    Raises:
+        ShapeError: If it has not one angle per joint.
+        LimitError: If an angle is not finite or outside its range.
+
+    Source:
+        None (input check).
+    """
+    if start is None:
+        return None
+    q = np.array(start, dtype=np.float64)
+    if q.shape != (arm.dof,):
+        raise ShapeError(f"start has shape {q.shape}, expected ({arm.dof},), one angle per joint in [rad]")
+    outside = np.flatnonzero(~(arm.rom.margin(q) >= 0))
+    if outside.size:
+        i = int(outside[0])
+        hint = "; angles are in radians" if np.abs(q[i]) > 2 * np.pi else ""
+        raise LimitError(
+            f"start posture: {arm.joint_names[i]} is {q[i]:.6g} rad ({np.rad2deg(q[i]):.4g}°), outside its "
+            f"range of motion {arm.rom.lower[i]:.6g} to {arm.rom.upper[i]:.6g} rad "
+            f"({np.rad2deg(arm.rom.lower[i]):.4g}° to {np.rad2deg(arm.rom.upper[i]):.4g}°){hint}"
+        )
+    return q
+
+
+def check_hand_speed(arm: Arm, path: HandPath, max_speed: Array) -> None:
+    """Refuse a path whose hand outruns any motion the speed limits allow.
+
+    |v_hand| ≤ Σ_revolute reach·v_i + Σ_prismatic v_i; the straight line between two samples is no
+    longer than any way the hand could take.
+
+    Args:
+        arm: The arm.
+        path: The hand path.
+        max_speed: Speed limits, shape (dof,), in [rad/s].
+
+    Raises:
+        LimitError: If the hand is faster between two samples.
+
+    Source:
+        None (bound of the Jacobian by the reach).
+    """
+    revolute = np.array([link.joint is JointType.REVOLUTE for link in arm.chain.moving_links])
+    fastest = float(np.where(revolute, arm.reach, 1.0) @ max_speed)
+    speed = np.linalg.norm(np.diff(path.position, axis=0), axis=1) / np.diff(path.time)
+    k = int(np.argmax(speed))
+    if speed[k] > fastest:
+        raise LimitError(
+            f"between samples {k} and {k + 1} the hand moves at {speed[k]:.4g} m/s, but with max_speed the "
+            f"hand of arm {arm.name!r} cannot exceed {fastest:.4g} m/s: raise max_speed or slow the path down"
+        )

@@ -1,0 +1,129 @@
+"""What a user can choose about a whole-trajectory solve."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from armik_sym.arm.model import Arm
+from armik_sym.errors import LimitError, OptionError
+from armik_sym.motion.hand_path import HandPath
+from armik_sym.symbolic import Orientation
+
+
+@dataclass(frozen=True)
+class TrajectoryOptions:
+    """Choices for `solve(..., method="trajectory")`.
+
+    The objective is ∫ speed_weight·|q̇|² + acceleration_weight·|q̈|² + posture_weight·|q - middle|² dt,
+    with soft tracking plus ∫ |position error|²/position_sigma² + |rotation error|²/rotation_sigma² dt,
+    halved, and with differences between samples in place of derivatives.
+
+    Attributes:
+        orientation: "full", "pointing" (fingers only) or "none"; None takes "full" if the path has
+            rotations, otherwise "none".
+        tracking: "exact" (every sample is an equation) or "soft" (weighted least squares, for noisy or
+            unreachable paths).
+        max_speed: Largest joint speed, one number or one per joint, in [rad/s]; the default lies well
+            above daily activities. None: no limit.
+        max_acceleration: Largest joint acceleration, likewise, in [rad/s²]; None: no limit.
+        speed_weight: Weight of squared joint speed, in [1].
+        acceleration_weight: Weight of squared joint acceleration, in [s²]; 0.01 s² makes a motion of
+            1 rad/s and one of 10 rad/s² cost the same.
+        posture_weight: Weight of the distance from mid-range, in [1/s²]; small, it settles what path
+            and smoothness leave open and keeps away from limits.
+        position_sigma: Soft tracking: position error that costs one unit, in [m].
+        rotation_sigma: Soft tracking: rotation error that costs one unit, in [rad].
+        max_iterations: IPOPT iterations per attempt.
+        ipopt_output: Let IPOPT print its iterations.
+
+    Source:
+        None (this package); compare the travel term of Nguyen 2021, eq. 16.
+    """
+
+    orientation: Literal["full", "pointing", "none"] | None = None
+    tracking: Literal["exact", "soft"] = "exact"
+    max_speed: float | ArrayLike | None = 10.0
+    max_acceleration: float | ArrayLike | None = None
+    speed_weight: float = 1.0
+    acceleration_weight: float = 0.01
+    posture_weight: float = 1e-3
+    position_sigma: float = 1e-3
+    rotation_sigma: float = 0.01
+    max_iterations: int = 300
+    ipopt_output: bool = False
+
+    def __post_init__(self) -> None:
+        if self.tracking not in ("exact", "soft"):
+            raise OptionError(f"tracking is {self.tracking!r}: valid are exact, soft")
+        for name in ("speed_weight", "acceleration_weight", "posture_weight"):
+            _check(name, getattr(self, name), zero=True)
+        for name in ("position_sigma", "rotation_sigma", "max_iterations"):
+            _check(name, getattr(self, name), zero=False)
+
+    def orientation_for(self, path: HandPath) -> Orientation:
+        """What of the path's orientation is tracked.
+
+        Args:
+            path: The hand path.
+
+        Returns:
+            The orientation mode.
+
+        Raises:
+            OptionError: If the choice is unknown, or needs rotations the path does not have.
+
+        Source:
+            None (bookkeeping).
+        """
+        wanted = self.orientation or ("none" if path.rotation is None else "full")
+        valid = [mode.value for mode in Orientation]
+        if wanted not in valid:
+            raise OptionError(f"orientation is {wanted!r}: valid are {', '.join(valid)}")
+        if wanted != "none" and path.rotation is None:
+            raise OptionError(
+                f"orientation is {wanted!r} but the path has no rotations: give them, or use "
+                'orientation="none"'
+            )
+        return Orientation(wanted)
+
+
+def rate_limit(name: str, value: float | ArrayLike | None, arm: Arm) -> NDArray[np.float64]:
+    """A speed or acceleration limit as one number per joint: |rate| ≤ limit.
+
+    Args:
+        name: Name of the option, for messages.
+        value: One number, one per joint, or None for no limit.
+        arm: The arm.
+
+    Returns:
+        Limits, shape (dof,), in [rad/s] or [rad/s²]; infinite where there is none.
+
+    Raises:
+        LimitError: If a limit is not positive, or their number does not fit the arm.
+
+    Source:
+        None (bookkeeping).
+    """
+    limits = np.asarray(np.inf if value is None else value, dtype=np.float64)
+    if limits.ndim > 1 or (limits.ndim == 1 and limits.shape != (arm.dof,)):
+        raise LimitError(f"{name} has shape {limits.shape}, expected one number or {arm.dof}, one per joint")
+    limits = np.broadcast_to(limits, (arm.dof,)).copy()
+    bad = np.flatnonzero(~(limits > 0))
+    if bad.size:
+        i = int(bad[0])
+        raise LimitError(
+            f"{name} of joint {arm.joint_names[i]!r} is {limits[i]:g}: -{name} ≤ rate ≤ {name} leaves no "
+            "motion at all; give a positive number, or None for no limit"
+        )
+    return limits
+
+
+def _check(name: str, value: float, *, zero: bool) -> None:
+    good = isinstance(value, (int, float)) and math.isfinite(value) and (value >= 0 if zero else value > 0)
+    if not good:
+        raise OptionError(f"{name} is {value!r}, expected a finite number {'≥' if zero else '>'} 0")

@@ -1,0 +1,87 @@
+"""Joint speed and acceleration as linear maps of the sampled angles, for any time stamps."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def speed_matrix(time: Array) -> sp.csr_array:
+    """D with (D q)_k = (q_{k+1} - q_k)/h_k, h_k = t_{k+1} - t_k.
+
+    Args:
+        time: Time stamps, shape (n,), in [s].
+
+    Returns:
+        Sparse matrix of shape (n - 1, n), in [1/s].
+
+    Source:
+        None (forward differences).
+    """
+    n = len(time)
+    shift = sp.eye_array(n - 1, n, k=1) - sp.eye_array(n - 1, n)
+    return sp.csr_array(sp.diags_array(1.0 / np.diff(time)) @ shift)
+
+
+def acceleration_matrix(time: Array) -> sp.csr_array:
+    """D2 with (D2 q)_k = (v_k - v_{k-1})/½(h_{k-1} + h_k) for the inner samples k = 1 … n-2.
+
+    Args:
+        time: Time stamps, shape (n,), in [s].
+
+    Returns:
+        Sparse matrix of shape (max(n - 2, 0), n), in [1/s²].
+
+    Source:
+        None (second divided differences).
+    """
+    n = len(time)
+    if n < 3:
+        return sp.csr_array((0, n))
+    speed = speed_matrix(time)
+    spacing = 0.5 * (time[2:] - time[:-2])
+    return sp.csr_array(sp.diags_array(1.0 / spacing) @ (speed[1:] - speed[:-1]))
+
+
+def sample_durations(time: Array) -> Array:
+    """The share of time each sample stands for (trapezoidal rule).
+
+    Args:
+        time: Time stamps, shape (n,), in [s].
+
+    Returns:
+        Shape (n,), in [s]; they add up to the duration.
+
+    Source:
+        None (trapezoidal rule).
+    """
+    half = 0.5 * np.diff(time)
+    return np.concatenate([half, [0.0]]) + np.concatenate([[0.0], half])
+
+
+def smoothness_matrix(
+    time: Array, speed_weight: float, acceleration_weight: float, posture_weight: float
+) -> sp.csr_array:
+    """K with ½ qᵀ K q = ½ ∫ speed_weight·q̇² + acceleration_weight·q̈² + posture_weight·q² dt.
+
+    Args:
+        time: Time stamps, shape (n,), in [s].
+        speed_weight: Weight of squared speed.
+        acceleration_weight: Weight of squared acceleration, in [s²].
+        posture_weight: Weight of the squared angle, in [1/s²].
+
+    Returns:
+        Symmetric, five bands, shape (n, n).
+
+    Source:
+        None (this package).
+    """
+    n = len(time)
+    first, second = speed_matrix(time), acceleration_matrix(time)
+    K = speed_weight * (first.T @ sp.diags_array(np.diff(time)) @ first)
+    if n >= 3:
+        K = K + acceleration_weight * (second.T @ sp.diags_array(0.5 * (time[2:] - time[:-2])) @ second)
+    return sp.csr_array(K + sp.diags_array(posture_weight * sample_durations(time)))

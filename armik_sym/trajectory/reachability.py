@@ -1,0 +1,106 @@
+"""Which samples of a path an arm cannot reach at all, and by how much."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armik_sym.arm.model import Arm
+from armik_sym.errors import UnreachablePathError
+from armik_sym.motion.hand_path import HandPath
+from armik_sym.solution.tracking_error import tracking_errors
+from armik_sym.symbolic import Orientation
+from armik_sym.trajectory.damped_least_squares import PoseSolver
+
+Array = NDArray[np.float64]
+
+REACHED = 1e-7
+_STARTS = 30
+_LISTED = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Unreachable:
+    """Samples that no posture inside the range of motion was found for.
+
+    Attributes:
+        samples: Their indices, shape (m,).
+        q: The nearest postures found, shape (m, dof), in [rad].
+    """
+
+    samples: NDArray[np.int64]
+    q: Array
+
+
+def find_unreachable(
+    solver: PoseSolver, arm: Arm, suspects: NDArray[np.int64], postures: Array, seed: int
+) -> Unreachable:
+    """Try every suspect sample from many postures, and keep those that none brings the hand to.
+
+    Args:
+        solver: Finds postures for samples.
+        arm: The arm.
+        suspects: Samples to try, shape (m,).
+        postures: A posture to try first for each, shape (m, dof), in [rad].
+        seed: Seed of the random postures.
+
+    Returns:
+        The samples that stay out of reach.
+
+    Source:
+        None (multistart).
+    """
+    rng = np.random.default_rng(seed)
+    starts = [arm.rom.middle, *(arm.rom.lower + arm.rom.width * rng.uniform(0, 1, (_STARTS, arm.dof)))]
+    samples, nearest = [], []
+    helpful: Array | None = None
+    for k, posture in zip(suspects, postures, strict=True):
+        tries = [posture, *([] if helpful is None else [helpful]), *starts]
+        best = None
+        for start in tries:
+            reached = solver.reach(int(k), start, iterations=100)
+            best = reached if best is None or reached.error < best.error else best
+            if best.error < REACHED:
+                helpful = best.q
+                break
+        if best is not None and best.error >= REACHED:
+            samples.append(int(k))
+            nearest.append(best.q)
+            helpful = best.q
+    return Unreachable(np.array(samples, dtype=np.int64), np.array(nearest).reshape(-1, arm.dof))
+
+
+def raise_unreachable(arm: Arm, path: HandPath, orientation: Orientation, found: Unreachable) -> None:
+    """Raise the error that names the samples out of reach and what to do about them.
+
+    Args:
+        arm: The arm.
+        path: The hand path.
+        orientation: What of it is tracked.
+        found: The samples out of reach.
+
+    Raises:
+        UnreachablePathError: Always.
+
+    Source:
+        None (reporting).
+    """
+    m = len(found.samples)
+    rotation = None if path.rotation is None else path.rotation[found.samples]
+    shortfall, turn = tracking_errors(arm, found.q, path.position[found.samples], rotation, orientation)
+    listed = ", ".join(
+        f"{k} by {1000 * s:.3g} mm"
+        + ("" if orientation is Orientation.NONE else f" and {np.rad2deg(r):.2g}°")
+        for k, s, r in zip(found.samples[:_LISTED], shortfall, turn, strict=False)
+    )
+    more = f" and {m - _LISTED} more" if m > _LISTED else ""
+    raise UnreachablePathError(
+        f"{m} of {len(path)} samples cannot be reached by arm {arm.name!r} inside its range of motion: "
+        f'sample {listed}{more}. Use tracking="soft" for the nearest continuous motion, or check units, '
+        f"shoulder position, segment lengths (reach {arm.reach:.3g} m) and range of motion.",
+        found.samples,
+        shortfall,
+        turn,
+    )

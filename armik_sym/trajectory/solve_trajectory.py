@@ -1,0 +1,142 @@
+"""The whole joint trajectory in one call."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from armik_sym.arm.model import Arm
+from armik_sym.compiled.backend import Backend
+from armik_sym.compiled.kinematics import Kinematics, compile
+from armik_sym.compiled.stage_functions import compile_stage
+from armik_sym.errors import SolverError
+from armik_sym.motion.hand_path import HandPath
+from armik_sym.progress import Progress, ProgressCallback
+from armik_sym.solution import Requirements, Solution, Timing
+from armik_sym.trajectory.attempts import Attempt, attempts
+from armik_sym.trajectory.damped_least_squares import PoseSolver
+from armik_sym.trajectory.first_guess import Guess, guesses
+from armik_sym.trajectory.input_checks import check_hand_speed, check_start
+from armik_sym.trajectory.options import TrajectoryOptions, rate_limit
+from armik_sym.trajectory.pose_error import SampleError
+from armik_sym.trajectory.reachability import REACHED, find_unreachable, raise_unreachable
+from armik_sym.trajectory.task import Task
+
+Array = NDArray[np.float64]
+
+EXACT_POSITION = 1e-9
+EXACT_ROTATION = 1e-9
+
+
+def solve_trajectory(
+    arm: Arm,
+    path: HandPath,
+    options: TrajectoryOptions,
+    *,
+    start: ArrayLike | None = None,
+    seed: int = 0,
+    backend: Backend = "auto",
+    progress: ProgressCallback | None = None,
+) -> Solution:
+    """Solve the inverse kinematics of a whole hand path at once, with IPOPT over all samples.
+
+    minimise ½∫ w_v|q̇|² + w_a|q̈|² + w_p|q - middle|² dt subject to hand(q_k) = sample k, lower ≤ q_k ≤
+    upper, |q̇| ≤ max_speed, |q̈| ≤ max_acceleration.
+
+    Args:
+        arm: The arm.
+        path: The hand path.
+        options: Choices, see `TrajectoryOptions`.
+        start: Known posture at the beginning, shape (dof,), in [rad]. The first sample gets the posture
+            nearest to it (in the damped least-squares sense) that puts the hand on the path.
+        seed: Seed of the random first postures tried from cold.
+        backend: "auto", "c" or "vm".
+        progress: Told what is going on, see `Progress`.
+
+    Returns:
+        The solution.
+
+    Raises:
+        UnreachablePathError: If samples cannot be reached; names them and the distance.
+        SolverError: If no attempt converged although every sample can be reached.
+        LimitError: If `start` lies outside the range of motion or limits contradict the path.
+        KeyboardInterrupt: If the user stopped the solve.
+
+    Source:
+        None (this package); compare Nguyen 2021, §3.3, which solves point after point.
+    """
+    began = time.perf_counter()
+    orientation = options.orientation_for(path)
+    max_speed = rate_limit("max_speed", options.max_speed, arm)
+    max_acceleration = rate_limit("max_acceleration", options.max_acceleration, arm)
+    start = check_start(arm, start)
+    check_hand_speed(arm, path, max_speed)
+    kinematics = compile(arm, backend)
+    stage = compile_stage(arm, orientation, backend)
+    ready = time.perf_counter()
+
+    pose_solver = PoseSolver(kinematics, SampleError(arm, path, orientation))
+    soft = options.tracking == "soft"
+    first = None if start is None else pose_solver.reach(0, start).q
+    task = Task(arm, path, orientation, options, max_speed, max_acceleration, first, stage)
+    if progress:
+        progress(Progress("first guess"))
+    tries = guesses(pose_solver, len(path), arm.rom.middle, arm.rom.width, first, seed)
+    if not soft:
+        tries = _check_reach(tries, task, pose_solver, seed)
+    outcome = _first_converged(task, attempts(task, tries, soft=soft, progress=progress))
+    compile_time = _compile_time(kinematics, stage.compile_time, ready - began)
+    return Solution(
+        arm=arm,
+        path=path,
+        q=arm.rom.clip(outcome.q),
+        method="trajectory",
+        orientation=orientation,
+        requirements=Requirements(
+            position_tolerance=np.inf if soft else EXACT_POSITION,
+            rotation_tolerance=np.inf if soft else EXACT_ROTATION,
+            max_speed=max_speed,
+            max_acceleration=max_acceleration,
+        ),
+        seed=seed,
+        timing=Timing(ready - began - compile_time, compile_time, time.perf_counter() - ready),
+        status=outcome.result.status,
+        iterations=outcome.iterations,
+        settings=dataclasses.asdict(options),
+    )
+
+
+def _check_reach(tries: Iterator[Guess], task: Task, solver: PoseSolver, seed: int) -> Iterator[Guess]:
+    """Pass guesses on; where the first one misses samples, see whether they can be reached at all."""
+    for number, guess in enumerate(tries):
+        missed = np.flatnonzero(guess.errors >= REACHED)
+        if number == 0 and missed.size:
+            found = find_unreachable(solver, task.arm, missed, guess.q[missed], seed)
+            if found.samples.size:
+                raise_unreachable(task.arm, task.path, task.orientation, found)
+        yield guess
+
+
+def _first_converged(task: Task, outcomes: Iterator[Attempt]) -> Attempt:
+    last = None
+    for outcome in outcomes:
+        if outcome.result.converged:
+            return outcome
+        last = outcome
+    status = last.result.status if last else "no guess"
+    raise SolverError(
+        f"no attempt converged (last: {status}). Every sample can be reached on its own, but no continuous "
+        f"motion of arm {task.arm.name!r} inside its range of motion and rate limits was found. Raise "
+        'max_speed or max_acceleration, give a start posture, or use tracking="soft".',
+        status,
+    )
+
+
+def _compile_time(kinematics: Kinematics, stage: float, elapsed: float) -> float:
+    """Compile time of this call: programs kept from earlier calls were compiled then, not now."""
+    total = kinematics.compile_time + stage
+    return total if total <= elapsed else 0.0
