@@ -50,7 +50,7 @@ def random_postures(n=1000, spread=pi):
 
 
 def printed_angles(q):
-    """Angles q' of the paper, from flexion, abduction and internal rotation (see the docstring of `human`)."""
+    """The angles of eq. (7) from flexion, abduction and internal rotation (see the docstring of `human`)."""
     flexion, abduction, rotation = q.T[:3]
     return pi - flexion, abduction - pi / 2, rotation + pi / 2
 

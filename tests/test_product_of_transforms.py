@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy import cos, sin
 from scipy.spatial.transform import Rotation
@@ -53,7 +53,7 @@ def chains(draw):
 
 def scipy_frames(chain, q):
     """Every frame as (rotation, position), composed turn by turn and shift by shift."""
-    turn, origin = Rotation.from_matrix(chain.base[:3, :3]), chain.base[:3, 3].copy()
+    turn, origin = Rotation.from_matrix(chain.base[:3, :3].copy()), chain.base[:3, 3].copy()
     yield turn.as_matrix(), origin.copy()
     values = iter(q)
     for link in chain.links:
@@ -71,11 +71,12 @@ def scipy_frames(chain, q):
             turn = turn * Rotation.from_euler(axis, angle)
         yield turn.as_matrix(), origin.copy()
     yield (
-        (turn * Rotation.from_matrix(chain.tool[:3, :3])).as_matrix(),
-        origin + turn.apply(chain.tool[:3, 3]),
+        (turn * Rotation.from_matrix(chain.tool[:3, :3].copy())).as_matrix(),
+        origin + turn.apply(chain.tool[:3, 3].copy()),
     )
 
 
+@settings(max_examples=60, deadline=None)
 @given(chains(), st.data())
 def test_every_frame_agrees_with_scipy_s_rotations(chain, data):
     q = np.array([data.draw(ANGLE) for _ in range(chain.dof)])
@@ -88,6 +89,7 @@ def test_every_frame_agrees_with_scipy_s_rotations(chain, data):
         np.testing.assert_array_equal(frame[3], [0, 0, 0, 1])
 
 
+@settings(max_examples=30, deadline=None)
 @given(chains(), st.integers(0, 5))
 def test_the_hand_pose_is_the_last_frame_for_any_number_of_samples(chain, n):
     q = np.linspace(-1, 1, n * chain.dof).reshape(n, chain.dof)

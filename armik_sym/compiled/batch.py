@@ -21,8 +21,8 @@ class PostureFunction(Protocol):
     def one(self, q: Array) -> Array:
         """Evaluate one posture (dof,): a new array (size,)."""
 
-    def many(self, q: Array) -> Array:
-        """Evaluate postures (n, dof): a new array (n, size)."""
+    def many(self, q: Array, out: Array | None = None) -> Array:
+        """Evaluate postures (n, dof) into `out` (n, size), or into a new array."""
 
 
 class _Scratch(threading.local):
@@ -55,9 +55,10 @@ class CompiledFunction:
         self._loop(1, scratch.q_address, self._lengths_address, scratch.out_address)
         return scratch.out.copy()
 
-    def many(self, q: Array) -> Array:
-        """Evaluate postures (n, dof): a new array (n, size); releases the interpreter lock."""
-        out = np.empty((len(q), self._size))
+    def many(self, q: Array, out: Array | None = None) -> Array:
+        """Evaluate postures (n, dof) into `out` (n, size), or a new array; releases the interpreter lock."""
+        if out is None:
+            out = np.empty((len(q), self._size))
         self._loop(len(q), q.ctypes.data, self._lengths_address, out.ctypes.data)
         return out
 
@@ -79,9 +80,10 @@ class VirtualMachineFunction:
         self._call(self._single, q, out)
         return out
 
-    def many(self, q: Array) -> Array:
-        """Evaluate postures (n, dof): a new array (n, size)."""
-        out = np.empty((len(q), self._size))
+    def many(self, q: Array, out: Array | None = None) -> Array:
+        """Evaluate postures (n, dof) into `out` (n, size), or into a new array."""
+        if out is None:
+            out = np.empty((len(q), self._size))
         whole = len(q) - len(q) % self._BLOCK
         for start in range(0, whole, self._BLOCK):
             part = slice(start, start + self._BLOCK)

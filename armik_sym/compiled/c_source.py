@@ -7,6 +7,7 @@ straight-line code that a compiler can schedule and that a reviewer of a control
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import casadi as ca
@@ -55,7 +56,12 @@ def signature_of(function: ca.Function, name: str) -> CSignature:
     return CSignature(name, inputs, outputs)
 
 
-def c_function(function: ca.Function, name: str, precision: Precision = "double") -> str:
+def c_function(
+    function: ca.Function,
+    name: str,
+    precision: Precision = "double",
+    constant: Callable[[float, Precision], str] = c_constant,
+) -> str:
     """Write a CasADi Function as one C99 function of plain arrays.
 
     Every operation becomes one `const` variable, in the order in which CasADi evaluates. All outputs
@@ -65,6 +71,7 @@ def c_function(function: ca.Function, name: str, precision: Precision = "double"
         function: A CasADi Function of SX type with dense inputs and outputs.
         name: Name of the C function; must be a plain identifier.
         precision: "double" or "float".
+        constant: Writes a constant; another type than double or float needs its own.
 
     Returns:
         C source text of the function, using the macro names `real` and `ONE`.
@@ -92,7 +99,7 @@ def c_function(function: ca.Function, name: str, precision: Precision = "double"
             value_of[target[0]] = f"v{k}"
             lines.append(f"  const real v{k} = {input_name}[{source[1]}];")
         elif operation == ca.OP_CONST:
-            value_of[target[0]] = c_constant(function.instruction_constant(k), precision)
+            value_of[target[0]] = constant(function.instruction_constant(k), precision)
         else:
             text = _spell(operation, [value_of[i] for i in source], precision)
             value_of[target[0]] = f"v{k}"

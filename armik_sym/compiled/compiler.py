@@ -42,7 +42,7 @@ class Compiler:
     origin: str
 
     def compile_shared(self, source: Path, library: Path) -> None:
-        """Compile one C file into a shared library for this processor.
+        """Compile one C file into a shared library, for this processor if the compiler can tell which.
 
         Args:
             source: The C file.
@@ -54,7 +54,17 @@ class Compiler:
         Source:
             None (packaging).
         """
-        command = [*self.command, *self.flags, "-o", str(library), str(source), "-lm"]
+        try:
+            self._run(self.flags, source, library)
+        except CompilerError as error:
+            # Not every compiler knows -march=native on every processor.
+            try:
+                self._run(tuple(flag for flag in self.flags if flag != NATIVE), source, library)
+            except CompilerError:
+                raise error from None
+
+    def _run(self, flags: tuple[str, ...], source: Path, library: Path) -> None:
+        command = [*self.command, *flags, "-o", str(library), str(source), "-lm"]
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT, check=False)
         except (OSError, subprocess.SubprocessError) as error:

@@ -61,79 +61,83 @@ class Kinematics:
     def __repr__(self) -> str:
         return f"Kinematics(arm={self.arm.name!r}, backend={self.backend!r})"
 
-    def position(self, q: ArrayLike) -> Array:
+    def position(self, q: ArrayLike, out: Array | None = None) -> Array:
         """Position of the hand: p(q).
 
         Args:
             q: Joint angles, shape (dof,) or (n, dof), in [rad].
+            out: Where the answer goes, of its shape; a new array if left out.
 
         Returns:
             Shape (3,) or (n, 3), in [m].
 
         Raises:
-            ShapeError: If the last axis is not dof long.
+            ShapeError: If the last axis of `q` is not dof long, or `out` does not fit.
 
         Source:
             Nguyen 2021, eq. 3 (for `catalog.ehmcs`).
         """
-        return self._evaluate("position", q, (3,))
+        return self._evaluate("position", q, (3,), out)
 
-    def rotation(self, q: ArrayLike) -> Array:
+    def rotation(self, q: ArrayLike, out: Array | None = None) -> Array:
         """Rotation of the hand frame to the base: R(q).
 
         Args:
             q: Joint angles, shape (dof,) or (n, dof), in [rad].
+            out: Where the answer goes, of its shape; a new array if left out.
 
         Returns:
             Shape (3, 3) or (n, 3, 3).
 
         Raises:
-            ShapeError: If the last axis is not dof long.
+            ShapeError: If the last axis of `q` is not dof long, or `out` does not fit.
 
         Source:
             Nguyen 2021, eq. 2; Al-Faiz, eq. 3.
         """
-        return self._evaluate("rotation", q, (3, 3))
+        return self._evaluate("rotation", q, (3, 3), out)
 
-    def jacobian(self, q: ArrayLike) -> Array:
+    def jacobian(self, q: ArrayLike, out: Array | None = None) -> Array:
         """Geometric Jacobian in the base frame: [v; ω] = J(q) q̇.
 
         Args:
             q: Joint angles, shape (dof,) or (n, dof), in [rad].
+            out: Where the answer goes, of its shape; a new array if left out.
 
         Returns:
             Shape (6, dof) or (n, 6, dof); linear rows in [m/rad], then angular rows in [1].
 
         Raises:
-            ShapeError: If the last axis is not dof long.
+            ShapeError: If the last axis of `q` is not dof long, or `out` does not fit.
 
         Source:
             Siciliano et al., Robotics (2009), eq. 3.30.
         """
-        return self._evaluate("jacobian", q, (6, self._dof))
+        return self._evaluate("jacobian", q, (6, self._dof), out)
 
-    def pose_and_jacobian(self, q: ArrayLike) -> tuple[Array, Array, Array]:
+    def pose_and_jacobian(self, q: ArrayLike, out: Array | None = None) -> tuple[Array, Array, Array]:
         """Position, rotation and Jacobian together, for little more than the Jacobian alone.
 
         Args:
             q: Joint angles, shape (dof,) or (n, dof), in [rad].
+            out: Where all numbers go, shape (…, 12 + 6·dof); a new array if left out.
 
         Returns:
             Position (…, 3) in [m], rotation (…, 3, 3), geometric Jacobian (…, 6, dof); views of
             one array.
 
         Raises:
-            ShapeError: If the last axis is not dof long.
+            ShapeError: If the last axis of `q` is not dof long, or `out` does not fit.
 
         Source:
             Nguyen 2021, eq. 2; Siciliano et al., Robotics (2009), eq. 3.30.
         """
-        flat = self._evaluate("pose_and_jacobian", q, (12 + 6 * self._dof,))
+        flat = self._evaluate("pose_and_jacobian", q, (12 + 6 * self._dof,), out)
         lead = flat.shape[:-1]
         rotation = flat[..., 3:12].reshape((*lead, 3, 3))
         return flat[..., :3], rotation, flat[..., 12:].reshape((*lead, 6, self._dof))
 
-    def _evaluate(self, name: str, q: ArrayLike, shape: tuple[int, ...]) -> Array:
+    def _evaluate(self, name: str, q: ArrayLike, shape: tuple[int, ...], out: Array | None) -> Array:
         postures = np.ascontiguousarray(q, dtype=np.float64)
         if postures.ndim not in (1, 2) or postures.shape[-1] != self._dof:
             raise ShapeError(
@@ -141,9 +145,23 @@ class Kinematics:
                 f"{self.arm.name!r}"
             )
         function = self._functions[name]
+        if out is not None:
+            _check_out(out, (*postures.shape[:-1], *shape))
+            if np.may_share_memory(out, postures):
+                postures = postures.copy()
+            function.many(postures.reshape(-1, self._dof), out)
+            return out
         if postures.ndim == 1:
             return function.one(postures).reshape(shape)
         return function.many(postures).reshape((len(postures), *shape))
+
+
+def _check_out(out: object, shape: tuple[int, ...]) -> None:
+    if not isinstance(out, np.ndarray) or out.shape != shape or out.dtype != np.float64:
+        found = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else type(out).__name__
+        raise ShapeError(f"out is {found}, expected a float64 array of shape {shape}")
+    if not (out.flags.c_contiguous and out.flags.writeable and out.flags.aligned):
+        raise ShapeError("out must be C-contiguous, aligned and writeable")
 
 
 def compile(arm: Arm, backend: Backend = "auto") -> Kinematics:

@@ -8,6 +8,7 @@ import casadi as ca
 
 from armik_sym.compiled.c_source import c_function, signature_of
 from armik_sym.compiled.casadi_abi import casadi_entry_points
+from armik_sym.compiled.lanes import fits_lanes, lanes_batch, lanes_header
 
 PRELUDE = """\
 #include <math.h>
@@ -42,10 +43,13 @@ def batch_library(functions: Mapping[str, ca.Function]) -> str:
     Source:
         None (packaging).
     """
-    parts = [PRELUDE]
+    parts = [PRELUDE, lanes_header()]
     for name, function in functions.items():
         c_name = f"armik_{name}"
         parts.append("static " + c_function(function, c_name))
+        if fits_lanes(function):
+            parts.append(lanes_batch(function, c_name))
+            continue
         parts.append(_BATCH.format(name=c_name, dof=function.numel_in(0), size=function.numel_out(0)))
     return "\n".join(parts)
 

@@ -149,5 +149,6 @@ def _check_metres(position: Array, place: Place) -> None:
         x, y, z = position[i]
         raise UnitError(
             f"position of {place(i)} is ({x:g}, {y:g}, {z:g}) m: more than any arm reaches "
-            f"({_FARTHEST:g} m); if these are millimetres, divide by 1000, or in a file write [mm] in its header"
+            f"({_FARTHEST:g} m); if these are millimetres, divide by 1000, or in a file write [mm] in the "
+            "header"
         )

@@ -13,7 +13,7 @@ from armik_sym.errors import HandPathError, MotionFileError, ShapeError, UnitErr
 from armik_sym.motion.declared_units import column_units, largest, likely_time_unit
 from armik_sym.motion.hand_path import HandPath, checked_path
 from armik_sym.motion.rotations import quaternions_to_rotations, rotations_to_quaternions
-from armik_sym.motion.unit_table import UnitTable, read_table, unknown_columns, write_table
+from armik_sym.motion.unit_table import UnitTable, read_table, write_table
 from armik_sym.motion.units import LENGTH_UNITS, NO_UNITS, TIME_UNITS, Unit
 
 Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ def write_path(path: str | os.PathLike[str], hand_path: HandPath, comment: str |
 def _check_columns(table: UnitTable) -> tuple[str, ...]:
     """The columns that make the path, after refusing files that lack some or have others."""
     where = f"{table.path}: line {table.header_line}"
-    unknown = unknown_columns(table, _UNITS)
+    unknown = [name for name in table.columns if name not in _UNITS]
     if unknown:
         raise MotionFileError(
             f"{where} has unknown columns {', '.join(map(repr, unknown))}: known are time, x, y, z, and for "

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,26 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.errors import MotionFileError
+from armik_sym.motion.table_header import Column, header_columns, row_cells
 from armik_sym.motion.text_file import read_lines, write_lines
 from armik_sym.motion.units import Unit, from_si, is_number, to_si
 
-_HEADING = re.compile(r"(?P<name>[^\[\]]*?)\s*(\[\s*(?P<unit>[^\[\]]*?)\s*\])?\Z")
 _COMMENT = "#"
-
-
-@dataclass(frozen=True)
-class Column:
-    """One column of a table.
-
-    Attributes:
-        name: Its name, without the unit.
-        unit: The unit in brackets, or None if the header declares none.
-        index: Position in the row, from 0.
-    """
-
-    name: str
-    unit: str | None
-    index: int
 
 
 @dataclass(frozen=True)
@@ -106,10 +89,10 @@ def read_table(path: Path) -> UnitTable:
     if not content:
         raise MotionFileError(f"{path}: only comments, expected a header row such as 'time [s],x [mm],…'")
     (header_line, heading), body = content[0], content[1:]
-    columns = _columns(path, header_line, heading)
+    columns = header_columns(path, header_line, heading)
     if not body:
         raise MotionFileError(f"{path}: the header on line {header_line} is followed by no samples")
-    rows = [_cells(path, number, line) for number, line in body]
+    rows = [row_cells(path, number, line) for number, line in body]
     for i, (number, _) in enumerate(body):
         if len(rows[i]) != len(columns):
             last = i == len(body) - 1
@@ -144,38 +127,6 @@ def write_table(
     write_lines(path, lines)
 
 
-def _columns(path: Path, number: int, heading: str) -> dict[str, Column]:
-    cells = _cells(path, number, heading)
-    for mark, word in ((";", "semicolons"), ("\t", "tabs")):
-        if len(cells) == 1 and mark in heading:
-            raise MotionFileError(f"{path}: line {number} separates its columns by {word}: use commas")
-    if all(is_number(cell) for cell in cells):
-        raise MotionFileError(
-            f"{path}: line {number} holds numbers where the header row should be, such as "
-            "'time [s],x [mm],y [mm],z [mm]'"
-        )
-    columns: dict[str, Column] = {}
-    for index, cell in enumerate(cells):
-        match = _HEADING.match(cell)
-        name = match["name"] if match else ""
-        if match is None or not name:
-            raise MotionFileError(
-                f"{path}: line {number}: column {index + 1} of the header is {cell!r}, expected a name and a "
-                "unit in brackets such as 'time [s]'"
-            )
-        if name in columns:
-            raise MotionFileError(f"{path}: line {number}: column {name!r} occurs twice in the header")
-        columns[name] = Column(name, match["unit"], index)
-    return columns
-
-
-def _cells(path: Path, number: int, line: str) -> tuple[str, ...]:
-    try:
-        return tuple(cell.strip() for cell in next(csv.reader([line], strict=True)))
-    except csv.Error as error:
-        raise MotionFileError(f"{path}: line {number} is not comma-separated text: {error}") from None
-
-
 def _miscount(have: int, want: int, last: bool) -> str:
     said = f"has {have} cells, expected {want}"
     if last and have < want:
@@ -191,19 +142,3 @@ def _not_a_number(cell: str) -> str:
     if cell.lower().lstrip("+-") in ("nan", "inf", "infinity", "na", "null", "none"):
         return f"is {cell!r}, expected a finite number: fill the gap or delete the line"
     return f"is {cell!r}, expected a number with a decimal point such as 12.5"
-
-
-def unknown_columns(table: UnitTable, known: Collection[str]) -> list[str]:
-    """Names of columns nothing reads, in file order.
-
-    Args:
-        table: The table.
-        known: Names that are read.
-
-    Returns:
-        The others.
-
-    Source:
-        None (bookkeeping).
-    """
-    return [name for name in table.columns if name not in known]

@@ -16,8 +16,8 @@ class Requirements:
     """What a solution has to satisfy.
 
     Attributes:
-        position_tolerance: Largest position error, in [m]; infinite for soft tracking.
-        rotation_tolerance: Largest rotation error, in [rad]; infinite for soft tracking.
+        position_tolerance: Largest position error, in [m].
+        rotation_tolerance: Largest rotation error, in [rad].
         max_speed: Largest joint speed, shape (dof,), in [rad/s].
         max_acceleration: Largest joint acceleration, shape (dof,), in [rad/s²].
     """

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.progress import Progress, ProgressCallback
-from armik_sym.trajectory.first_guess import Guess
+from armik_sym.trajectory.guess import Guess
 from armik_sym.trajectory.ipopt import IpoptResult, IterationCallback, run_ipopt
 from armik_sym.trajectory.task import Task
 
@@ -27,11 +27,13 @@ class Attempt:
         q: Joint angles, shape (n, dof), in [rad].
         result: What IPOPT returned last.
         iterations: IPOPT iterations in all.
+        unlimited: Angles found without rate limits where those with limits were not, else None.
     """
 
     q: Array
     result: IpoptResult
     iterations: int
+    unlimited: Array | None = None
 
 
 def attempt(task: Task, guess: Array, *, soft: bool, progress: ProgressCallback | None) -> Attempt:
@@ -60,7 +62,8 @@ def attempt(task: Task, guess: Array, *, soft: bool, progress: ProgressCallback 
     if outcome.result.converged and task.exceeds_rates(outcome.q):
         report = _reporter("speed and acceleration limits", progress)
         limited = _run(task, outcome.q, soft=soft, rates=True, report=report)
-        return Attempt(limited.q, limited.result, outcome.iterations + limited.iterations)
+        iterations = outcome.iterations + limited.iterations
+        return Attempt(limited.q, limited.result, iterations, None if limited.result.converged else outcome.q)
     return outcome
 
 

@@ -108,6 +108,21 @@ class PoseSolver:
             q = reached.q
         return postures, errors
 
+    def idle_joints(self, q: Array) -> NDArray[np.intp]:
+        """Joints that change nothing of what is tracked: columns of zeros in the tracked rows of J.
+
+        Args:
+            q: A posture in general position, shape (dof,), in [rad].
+
+        Returns:
+            Their indices.
+
+        Source:
+            None (definition).
+        """
+        _, J = self._error(0, q)
+        return np.flatnonzero(np.abs(J).max(axis=0) < 1e-12)
+
     def _error(self, k: int, q: Array) -> tuple[Array, Array]:
         return self._sample_error(k, *self._kinematics.pose_and_jacobian(q))
 

@@ -3,70 +3,88 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from armik_sym.arm.range_of_motion import RangeOfMotion
 from armik_sym.trajectory.damped_least_squares import PoseSolver
+from armik_sym.trajectory.guess import Guess
+from armik_sym.trajectory.posture_graph import graph_guess
 
 Array = NDArray[np.float64]
 
 _SCOUTED_SAMPLES = 40
 _RANDOM_STARTS = 24
 _CANDIDATES = 3
+_GRAPHS = 2
+_FOLLOWED_SAMPLES = 300
 _SAME_POSTURE = 0.05
 
 
-@dataclass(frozen=True, eq=False)
-class Guess:
-    """A joint trajectory to start from.
-
-    Attributes:
-        q: Joint angles, shape (n, dof), in [rad].
-        errors: Error left at each sample, shape (n,), in [m].
-        origin: How it was made, for logs.
-    """
-
-    q: Array
-    errors: Array
-    origin: str
-
-
 def guesses(
-    solver: PoseSolver, n: int, middle: Array, width: Array, start: Array | None, seed: int
+    solver: PoseSolver, time: Array, rom: RangeOfMotion, start: Array | None, seed: int
 ) -> Iterator[Guess]:
     """Trajectories to try, the most promising first; made one at a time, as they are asked for.
 
     First postures come from `start`, or from mid-range and random postures, each brought to sample 0.
-    A scout along a few samples ranks them by the error it leaves and its largest step. Then come, for
-    each: the path followed sample by sample, and the first posture held constant.
+    A scout along a few samples ranks them by the error it leaves and its largest step. Then come: the
+    path followed sample by sample from the best, the shortest way through a graph of postures, the
+    path followed from the others, and the best first posture held.
 
     Args:
         solver: Finds postures for samples.
-        n: Number of samples.
-        middle: Posture in the middle of the range of motion, shape (dof,), in [rad].
-        width: Width of the range of motion, shape (dof,), in [rad].
-        start: First posture, shape (dof,), or None.
+        time: Time stamps, shape (n,), in [s].
+        rom: Range of motion.
+        start: First posture, shape (dof,), in [rad], or None.
         seed: Seed of the random postures.
 
-    Returns:
+    Yields:
         Guesses.
 
     Source:
         None (this package).
     """
-    firsts = [start] if start is not None else first_postures(solver, n, middle, width, seed)
-    everything = np.arange(n)
+    n = len(time)
+    firsts = [start] if start is not None else first_postures(solver, n, rom, seed)
     for rank, first in enumerate(firsts):
-        postures, errors = solver.follow(everything, first)
+        postures, errors = follow(solver, time, first)
         yield Guess(postures, errors, f"followed from first posture {rank + 1}")
-    for rank, first in enumerate(firsts):
-        constant = np.tile(first, (n, 1))
-        yield Guess(constant, np.full(n, np.inf), f"first posture {rank + 1} held")
+        if rank == 0:
+            for attempt in range(_GRAPHS):
+                yield graph_guess(solver, time, rom, start, seed + attempt)
+    yield Guess(np.tile(firsts[0], (n, 1)), np.full(n, np.inf), "first posture held")
 
 
-def first_postures(solver: PoseSolver, n: int, middle: Array, width: Array, seed: int) -> list[Array]:
+def follow(solver: PoseSolver, time: Array, first: Array) -> tuple[Array, Array]:
+    """Follow a path from a first posture; a long path by some of its samples, linear in between.
+
+    What is missed in between is small where the path is dense, and the solver's to mend.
+
+    Args:
+        solver: Finds postures for samples.
+        time: Time stamps, shape (n,), in [s].
+        first: Posture at sample 0, shape (dof,), in [rad].
+
+    Returns:
+        Postures, shape (n, dof), in [rad], and the error at each followed sample, shape (n,), in [m],
+        0 in between.
+
+    Source:
+        None (this package).
+    """
+    n = len(time)
+    visited = np.unique(np.linspace(0, n - 1, min(n, _FOLLOWED_SAMPLES)).astype(np.int64))
+    postures, errors = solver.follow(visited, first)
+    if len(visited) == n:
+        return postures, errors
+    everywhere = np.zeros(n)
+    everywhere[visited] = errors
+    filled = [np.interp(time, time[visited], column) for column in postures.T]
+    return np.array(filled).T, everywhere
+
+
+def first_postures(solver: PoseSolver, n: int, rom: RangeOfMotion, seed: int) -> list[Array]:
     """Postures for sample 0, ranked by how well a scout gets along the path from them.
 
     Score: error left at the scouted samples [m], then the largest joint step between them [rad].
@@ -74,8 +92,7 @@ def first_postures(solver: PoseSolver, n: int, middle: Array, width: Array, seed
     Args:
         solver: Finds postures for samples.
         n: Number of samples.
-        middle: Posture in the middle of the range of motion, shape (dof,), in [rad].
-        width: Width of the range of motion, shape (dof,), in [rad].
+        rom: Range of motion.
         seed: Seed of the random postures.
 
     Returns:
@@ -85,7 +102,7 @@ def first_postures(solver: PoseSolver, n: int, middle: Array, width: Array, seed
         None (this package).
     """
     rng = np.random.default_rng(seed)
-    starts = [middle, *(middle + width * rng.uniform(-0.45, 0.45, (_RANDOM_STARTS, len(middle))))]
+    starts = [rom.middle, *(rom.middle + rom.width * rng.uniform(-0.45, 0.45, (_RANDOM_STARTS, rom.dof)))]
     distinct: list[Array] = []
     for start in starts:
         reached = solver.reach(0, start)

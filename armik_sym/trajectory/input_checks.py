@@ -9,6 +9,7 @@ from armik_sym.arm.dh import JointType
 from armik_sym.arm.model import Arm
 from armik_sym.errors import LimitError, ShapeError
 from armik_sym.motion.hand_path import HandPath
+from armik_sym.solution.motion_rates import joint_acceleration, joint_speed
 
 Array = NDArray[np.float64]
 
@@ -45,6 +46,35 @@ def check_start(arm: Arm, start: ArrayLike | None) -> Array | None:
             f"({np.rad2deg(arm.rom.lower[i]):.4g}° to {np.rad2deg(arm.rom.upper[i]):.4g}°){hint}"
         )
     return q
+
+
+def raise_too_fast(arm: Arm, path: HandPath, q: Array, max_speed: Array, max_acceleration: Array) -> None:
+    """Raise the error for a path that can be followed, but not within the rate limits.
+
+    Args:
+        arm: The arm.
+        path: The hand path.
+        q: Angles that follow the path without the limits, shape (n, dof), in [rad].
+        max_speed: Speed limits, shape (dof,), in [rad/s].
+        max_acceleration: Acceleration limits, shape (dof,), in [rad/s²].
+
+    Raises:
+        LimitError: Always; names joint, sample and rate.
+
+    Source:
+        None (reporting).
+    """
+    speed = np.abs(joint_speed(path.time, q))
+    acceleration = np.abs(joint_acceleration(path.time, q))
+    name, rates, limits, unit = "max_speed", speed, max_speed, "°/s"
+    if not np.any(speed > max_speed):
+        name, rates, limits, unit = "max_acceleration", acceleration, max_acceleration, "°/s²"
+    k, i = np.unravel_index(int(np.argmax(rates / limits)), rates.shape)
+    raise LimitError(
+        f"the path can be followed, but no motion within {name} was found: without the limit the best one "
+        f"moves {arm.joint_names[i]} at {np.rad2deg(rates[k, i]):.4g}{unit} after sample {k} (allowed "
+        f'{np.rad2deg(limits[i]):.4g}{unit}). Raise {name}, slow the path down, or use tracking="soft".'
+    )
 
 
 def check_hand_speed(arm: Arm, path: HandPath, max_speed: Array) -> None:

@@ -38,6 +38,10 @@ class TrajectoryOptions:
             and smoothness leave open and keeps away from limits.
         position_sigma: Soft tracking: position error that costs one unit, in [m].
         rotation_sigma: Soft tracking: rotation error that costs one unit, in [rad].
+        position_tolerance: Position error up to which the solution calls itself ok, in [m]; None means
+            1e-9 m for exact tracking, 10 mm for soft.
+        rotation_tolerance: The same for the rotation error, in [rad]; None means 1e-9 rad for exact
+            tracking, 5° for soft.
         max_iterations: IPOPT iterations per attempt.
         ipopt_output: Let IPOPT print its iterations.
 
@@ -54,6 +58,8 @@ class TrajectoryOptions:
     posture_weight: float = 1e-3
     position_sigma: float = 1e-3
     rotation_sigma: float = 0.01
+    position_tolerance: float | None = None
+    rotation_tolerance: float | None = None
     max_iterations: int = 300
     ipopt_output: bool = False
 
@@ -64,6 +70,21 @@ class TrajectoryOptions:
             _check(name, getattr(self, name), zero=True)
         for name in ("position_sigma", "rotation_sigma", "max_iterations"):
             _check(name, getattr(self, name), zero=False)
+        for name in ("position_tolerance", "rotation_tolerance"):
+            if getattr(self, name) is not None:
+                _check(name, getattr(self, name), zero=False)
+
+    @property
+    def position_tolerance_or_default(self) -> float:
+        """Position error up to which a solution is ok, in [m]."""
+        default = 1e-9 if self.tracking == "exact" else 0.01
+        return default if self.position_tolerance is None else self.position_tolerance
+
+    @property
+    def rotation_tolerance_or_default(self) -> float:
+        """Rotation error up to which a solution is ok, in [rad]."""
+        default = 1e-9 if self.tracking == "exact" else math.radians(5.0)
+        return default if self.rotation_tolerance is None else self.rotation_tolerance
 
     def orientation_for(self, path: HandPath) -> Orientation:
         """What of the path's orientation is tracked.

@@ -8,16 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.arm.model import Arm
-from armik_sym.errors import UnreachablePathError
+from armik_sym.errors import OptionError, UnreachablePathError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.solution.tracking_error import tracking_errors
 from armik_sym.symbolic import Orientation
-from armik_sym.trajectory.damped_least_squares import PoseSolver
+from armik_sym.trajectory.damped_least_squares import PoseSolver, Reached
 
 Array = NDArray[np.float64]
 
 REACHED = 1e-7
 _STARTS = 30
+_FEW_STARTS = 3
+_THOROUGH = 30
 _LISTED = 8
 
 
@@ -34,42 +36,61 @@ class Unreachable:
     q: Array
 
 
-def find_unreachable(
-    solver: PoseSolver, arm: Arm, suspects: NDArray[np.int64], postures: Array, seed: int
-) -> Unreachable:
-    """Try every suspect sample from many postures, and keep those that none brings the hand to.
+def find_unreachable(solver: PoseSolver, arm: Arm, n: int, q0: Array, seed: int) -> Unreachable:
+    """Follow the whole path, and try the samples missed on the way from many postures.
 
     Args:
         solver: Finds postures for samples.
         arm: The arm.
-        suspects: Samples to try, shape (m,).
-        postures: A posture to try first for each, shape (m, dof), in [rad].
+        n: Number of samples.
+        q0: Posture to begin with, shape (dof,), in [rad].
         seed: Seed of the random postures.
 
     Returns:
-        The samples that stay out of reach.
+        The samples that no posture brings the hand to.
 
     Source:
         None (multistart).
     """
+    postures, errors = solver.follow(np.arange(n), q0)
+    missed = np.flatnonzero(errors >= REACHED)
     rng = np.random.default_rng(seed)
-    starts = [arm.rom.middle, *(arm.rom.lower + arm.rom.width * rng.uniform(0, 1, (_STARTS, arm.dof)))]
     samples, nearest = [], []
-    helpful: Array | None = None
-    for k, posture in zip(suspects, postures, strict=True):
-        tries = [posture, *([] if helpful is None else [helpful]), *starts]
-        best = None
-        for start in tries:
-            reached = solver.reach(int(k), start, iterations=100)
-            best = reached if best is None or reached.error < best.error else best
-            if best.error < REACHED:
-                helpful = best.q
-                break
-        if best is not None and best.error >= REACHED:
+    for k in missed:
+        # Once many samples are lost for certain, a few tries tell whether their neighbours are, too.
+        count = _STARTS if len(samples) < _THOROUGH else _FEW_STARTS
+        tries = [postures[k], *nearest[-1:], arm.rom.middle]
+        tries += list(arm.rom.lower + arm.rom.width * rng.uniform(0, 1, (count, arm.dof)))
+        best = nearest_posture(solver, int(k), tries)
+        if best.error >= REACHED:
             samples.append(int(k))
             nearest.append(best.q)
-            helpful = best.q
     return Unreachable(np.array(samples, dtype=np.int64), np.array(nearest).reshape(-1, arm.dof))
+
+
+def nearest_posture(solver: PoseSolver, k: int, starts: list[Array]) -> Reached:
+    """The posture that brings the hand nearest to a sample, from several starts.
+
+    Args:
+        solver: Finds postures for samples.
+        k: The sample.
+        starts: Postures to start from, shape (dof,) each, in [rad].
+
+    Returns:
+        The best; the search ends at the first that reaches the sample.
+
+    Source:
+        None (multistart).
+    """
+    best: Reached | None = None
+    for start in starts:
+        reached = solver.reach(k, start, iterations=100)
+        best = reached if best is None or reached.error < best.error else best
+        if best.error < REACHED:
+            break
+    if best is None:
+        raise OptionError("nearest_posture needs at least one start")
+    return best
 
 
 def raise_unreachable(arm: Arm, path: HandPath, orientation: Orientation, found: Unreachable) -> None:

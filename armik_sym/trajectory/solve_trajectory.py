@@ -19,17 +19,18 @@ from armik_sym.progress import Progress, ProgressCallback
 from armik_sym.solution import Requirements, Solution, Timing
 from armik_sym.trajectory.attempts import Attempt, attempts
 from armik_sym.trajectory.damped_least_squares import PoseSolver
-from armik_sym.trajectory.first_guess import Guess, guesses
-from armik_sym.trajectory.input_checks import check_hand_speed, check_start
+from armik_sym.trajectory.first_guess import guesses
+from armik_sym.trajectory.guess import Guess
+from armik_sym.trajectory.input_checks import check_hand_speed, check_start, raise_too_fast
 from armik_sym.trajectory.options import TrajectoryOptions, rate_limit
 from armik_sym.trajectory.pose_error import SampleError
-from armik_sym.trajectory.reachability import REACHED, find_unreachable, raise_unreachable
+from armik_sym.trajectory.reachability import REACHED, find_unreachable, nearest_posture, raise_unreachable
 from armik_sym.trajectory.task import Task
 
 Array = NDArray[np.float64]
 
-EXACT_POSITION = 1e-9
-EXACT_ROTATION = 1e-9
+# After this many motions that only rate limits spoil, further guesses are not worth the wait.
+_ENOUGH_TOO_FAST = 2
 
 
 def solve_trajectory(
@@ -85,9 +86,9 @@ def solve_trajectory(
     task = Task(arm, path, orientation, options, max_speed, max_acceleration, first, stage)
     if progress:
         progress(Progress("first guess"))
-    tries = guesses(pose_solver, len(path), arm.rom.middle, arm.rom.width, first, seed)
+    tries = guesses(pose_solver, path.time, arm.rom, first, seed)
     if not soft:
-        tries = _check_reach(tries, task, pose_solver, seed)
+        tries = _exact_guesses(tries, task, pose_solver, seed)
     outcome = _first_converged(task, attempts(task, tries, soft=soft, progress=progress))
     compile_time = _compile_time(kinematics, stage.compile_time, ready - began)
     return Solution(
@@ -97,8 +98,8 @@ def solve_trajectory(
         method="trajectory",
         orientation=orientation,
         requirements=Requirements(
-            position_tolerance=np.inf if soft else EXACT_POSITION,
-            rotation_tolerance=np.inf if soft else EXACT_ROTATION,
+            position_tolerance=options.position_tolerance_or_default,
+            rotation_tolerance=options.rotation_tolerance_or_default,
             max_speed=max_speed,
             max_acceleration=max_acceleration,
         ),
@@ -110,24 +111,42 @@ def solve_trajectory(
     )
 
 
-def _check_reach(tries: Iterator[Guess], task: Task, solver: PoseSolver, seed: int) -> Iterator[Guess]:
-    """Pass guesses on; where the first one misses samples, see whether they can be reached at all."""
+def _exact_guesses(tries: Iterator[Guess], task: Task, solver: PoseSolver, seed: int) -> Iterator[Guess]:
+    """Pass guesses on; where the first misses samples or all fail, see whether the path can be reached."""
+    first: Array = task.arm.rom.middle
     for number, guess in enumerate(tries):
-        missed = np.flatnonzero(guess.errors >= REACHED)
-        if number == 0 and missed.size:
-            found = find_unreachable(solver, task.arm, missed, guess.q[missed], seed)
-            if found.samples.size:
-                raise_unreachable(task.arm, task.path, task.orientation, found)
+        if number == 0:
+            first = guess.q[0]
+            missed = np.flatnonzero(guess.errors >= REACHED)
+            if missed.size and _is_lost(task, solver, int(missed[np.argmax(guess.errors[missed])]), guess):
+                break
         yield guess
+    found = find_unreachable(solver, task.arm, len(task.path), first, seed)
+    if found.samples.size:
+        raise_unreachable(task.arm, task.path, task.orientation, found)
+
+
+def _is_lost(task: Task, solver: PoseSolver, k: int, guess: Guess) -> bool:
+    """True if the worst sample of a guess cannot be reached from many postures either."""
+    rom = task.arm.rom
+    rng = np.random.default_rng(k)
+    starts = [guess.q[k], rom.middle, *(rom.lower + rom.width * rng.uniform(0, 1, (30, rom.dof)))]
+    return nearest_posture(solver, k, starts).error >= REACHED
 
 
 def _first_converged(task: Task, outcomes: Iterator[Attempt]) -> Attempt:
-    last = None
+    last: Attempt | None = None
+    too_fast: list[Array] = []
     for outcome in outcomes:
         if outcome.result.converged:
             return outcome
         last = outcome
+        too_fast += [] if outcome.unlimited is None else [outcome.unlimited]
+        if len(too_fast) == _ENOUGH_TOO_FAST:
+            break
     status = last.result.status if last else "no guess"
+    if too_fast:
+        raise_too_fast(task.arm, task.path, too_fast[0], task.max_speed, task.max_acceleration)
     raise SolverError(
         f"no attempt converged (last: {status}). Every sample can be reached on its own, but no continuous "
         f"motion of arm {task.arm.name!r} inside its range of motion and rate limits was found. Raise "

@@ -1,0 +1,117 @@
+"""The way of the hand through space, with the arm at a few instants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from armik_sym.arm.model import Arm
+from armik_sym.arm.product_of_transforms import hand_pose
+from armik_sym.report.stick_figure import StickFigure, stick_figure
+from armik_sym.report.style import INK, MEASURED, SOLVED, TEXT_SIZE, head, new_figure, style_axes
+from armik_sym.solution import Solution
+
+Array = NDArray[np.float64]
+
+_ANATOMICAL = "x up, z forward"
+_INSTANTS = 4
+# From light to dark: the last posture is the darkest in a grey print, too.
+_GREYS = ("#BDBDBD", "#969696", "#636363", "#252525")
+_VISIBLE_ERROR = 2e-4
+
+
+@dataclass(frozen=True)
+class _View:
+    title: str
+    across: int
+    up: int
+    x_label: str
+    y_label: str
+
+
+_ANATOMICAL_VIEWS = (
+    _View("Seen from the side", 2, 0, "forward → [mm]", "up → [mm]"),
+    _View("Seen from above", 1, 2, "to the right → [mm]", "forward → [mm]"),
+)
+_PLAIN_VIEWS = (
+    _View("x and y", 0, 1, "x [mm]", "y [mm]"),
+    _View("x and z", 0, 2, "x [mm]", "z [mm]"),
+)
+
+
+def hand_path_figure(solution: Solution, *, title: str | None = None, note: str | None = None) -> Figure:
+    """Draw the path of the hand in two views at right angles, and the arm at four instants.
+
+    Axes are called up, forward and right for arms whose description says "x up, z forward", as the
+    E-HMCS and the human arm of the catalogue do; otherwise x, y and z of the base frame.
+
+    Args:
+        solution: The solution.
+        title: What the motion is; None for "Path of the hand".
+        note: Where the data come from, for example "synthetic data"; written below the title.
+
+    Returns:
+        A figure with equal axes, in [mm], origin at the base of the arm.
+
+    Source:
+        Compare Nguyen 2021, Fig. 8.
+    """
+    arm = solution.arm
+    figure = new_figure(11.0, 5.6)
+    hand, _ = hand_pose(arm.chain, solution.q, arm.lengths)
+    instants = _spread(hand)
+    sticks = stick_figure(arm, solution.q[instants])
+    panels = figure.subplots(1, 2)
+    for axes, view in zip(panels, _views(arm), strict=True):
+        style_axes(axes, view.title, view.x_label, view.y_label)
+        _draw_sticks(axes, view, sticks, solution.time[instants])
+        _draw_path(axes, view, solution, hand)
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.margins(0.08)
+    facts = f"arm {arm.name}, {solution.path.duration:.1f} s, {'ok' if solution.ok else 'NOT ok'}"
+    head(figure, f"{title or 'Path of the hand'} ({facts})", note=note)
+    return figure
+
+
+def _views(arm: Arm) -> tuple[_View, _View]:
+    return _ANATOMICAL_VIEWS if _ANATOMICAL in arm.description else _PLAIN_VIEWS
+
+
+def _spread(hand: Array) -> list[int]:
+    """Samples evenly spread over the way of the hand, the first and the last among them."""
+    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(hand, axis=0), axis=1))])
+    wanted = np.linspace(0.0, way[-1], min(_INSTANTS, len(hand)))
+    found = np.searchsorted(way, wanted - 1e-12)
+    found[-1] = len(hand) - 1
+    return sorted({int(k) for k in found})
+
+
+def _draw_sticks(axes: Axes, view: _View, sticks: StickFigure, times: Array) -> None:
+    flat = 1000 * sticks.points[:, :, [view.across, view.up]]
+    for k, (points, time) in enumerate(zip(flat, times, strict=True)):
+        grey = _GREYS[len(_GREYS) - len(flat) + k]
+        axes.plot(*points.T, color=grey, linewidth=3, marker="o", markersize=5, solid_capstyle="round", zorder=2 + 0.1 * k)
+        _write(axes, points[-1], f"{time:.1f} s", (6, 5), SOLVED)
+    for i, name in enumerate(sticks.names):
+        if name and i < len(sticks.names) - 1:
+            _write(axes, flat[-1, i], name, (8, -10), INK)
+
+
+def _draw_path(axes: Axes, view: _View, solution: Solution, hand: Array) -> None:
+    pick = [view.across, view.up]
+    if solution.position_error.max() > _VISIBLE_ERROR:
+        wanted = 1000 * solution.path.position[:, pick]
+        axes.plot(*wanted.T, color=MEASURED, linewidth=1.4, linestyle=(0, (3, 2)), zorder=4, label="asked for")
+        _write(axes, wanted[len(wanted) // 2], "path asked for", (8, 8), MEASURED)
+    path = 1000 * hand[:, pick]
+    axes.plot(*path.T, color=SOLVED, linewidth=2.2, zorder=3, label="hand")
+    axes.plot(*path[0], marker="o", markersize=7, color="white", markeredgecolor=SOLVED, markeredgewidth=2, zorder=5)
+    axes.plot(*path[-1], marker="s", markersize=7, color=SOLVED, zorder=5)
+
+
+def _write(axes: Axes, at: Array, words: str, shift: tuple[float, float], colour: str) -> None:
+    axes.annotate(words, at, xytext=shift, textcoords="offset points", fontsize=TEXT_SIZE, color=colour, zorder=6)

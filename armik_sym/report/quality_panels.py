@@ -1,0 +1,104 @@
+"""Panels that show how good a solution is: tracking errors and peak speed over time."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from armik_sym.report.style import FAINT, LIMIT, SOLVED, TEXT_SIZE, style_axes
+from armik_sym.report.words import at_most, joint_title, joint_unit
+from armik_sym.solution import Solution
+from armik_sym.solution.motion_rates import joint_speed
+
+Array = NDArray[np.float64]
+
+# Below this an error says something about arithmetic only: shown on a logarithmic scale.
+_ROUNDING = 1e-4
+_FLOOR = 1e-15
+
+
+def draw_error(axes: Axes, time: Array, error: Array, title: str, unit: str, allowed: float) -> None:
+    """Draw a tracking error over time: linear if it can be measured, logarithmic if it is rounding.
+
+    Args:
+        axes: The panel.
+        time: Time stamps, shape (n,), in [s].
+        error: Errors, shape (n,), in `unit`.
+        title: What the error is.
+        unit: Its unit, as shown.
+        allowed: Largest allowed error, in `unit`; infinite if none is set.
+
+    Source:
+        None (reporting).
+    """
+    largest = float(error.max())
+    style_axes(axes, title, "time [s]", f"error [{unit}]")
+    axes.set_title(at_most(largest, unit), loc="right", fontsize=TEXT_SIZE, color=FAINT)
+    axes.set_xlim(time[0], time[-1])
+    if largest >= _ROUNDING:
+        axes.plot(time, error, color=SOLVED, linewidth=1.4)
+        axes.set_ylim(0.0, 1.1 * largest)
+        if allowed <= 1.1 * largest:
+            _draw_limit(axes, allowed, f"allowed {allowed:.2g} {unit}")
+        return
+    axes.set_ylabel(f"error [{unit}], log scale", fontsize=TEXT_SIZE)
+    axes.plot(time, np.maximum(error, _FLOOR), color=SOLVED, linewidth=1.0)
+    top = allowed if np.isfinite(allowed) else largest
+    axes.set_yscale("log")
+    axes.set_ylim(_FLOOR, 30 * max(top, largest, _FLOOR))
+    axes.minorticks_off()
+    if np.isfinite(allowed):
+        _draw_limit(axes, allowed, f"allowed {allowed:.1g} {unit}")
+
+
+def draw_speed(axes: Axes, solution: Solution) -> None:
+    """Draw the speed of the fastest joint over time.
+
+    Args:
+        axes: The panel.
+        solution: The solution.
+
+    Source:
+        None (reporting).
+    """
+    arm = solution.arm
+    units = [joint_unit(arm, i) for i in range(arm.dof)]
+    unit = "deg" if any(name == "deg" for name, _ in units) else "mm"
+    chosen = [i for i, (name, _) in enumerate(units) if name == unit]
+    factor = units[chosen[0]][1]
+    speed = factor * np.abs(joint_speed(solution.time, solution.q[:, chosen]))
+    between = 0.5 * (solution.time[1:] + solution.time[:-1])
+    peak = speed.max(axis=1)
+    k, j = np.unravel_index(int(np.argmax(speed)), speed.shape)
+
+    style_axes(axes, "Speed of the fastest joint", "time [s]", f"speed [{unit}/s]")
+    axes.fill_between(between, peak, color=SOLVED, alpha=0.15, linewidth=0)
+    axes.plot(between, peak, color=SOLVED, linewidth=1.4)
+    axes.set_xlim(solution.time[0], solution.time[-1])
+    top = 1.15 * max(float(peak.max()), 1e-9)
+    axes.set_ylim(0.0, top)
+    name = joint_title(arm.joint_names[chosen[int(j)]]).lower()
+    limit = factor * solution.requirements.max_speed[chosen[int(j)]]
+    allowed = f", allowed {limit:.0f}" if np.isfinite(limit) else ""
+    axes.set_title(
+        f"{name}: {peak.max():.0f} {unit}/s{allowed}", loc="right", fontsize=TEXT_SIZE, color=FAINT
+    )
+    axes.plot(between[k], peak[k], marker="o", markersize=4, color=SOLVED)
+    if limit < top:
+        _draw_limit(axes, limit, "")
+
+
+def _draw_limit(axes: Axes, value: float, words: str) -> None:
+    axes.axhline(value, color=LIMIT, linewidth=0.9, linestyle="--")
+    axes.annotate(
+        words,
+        (0.99, value),
+        xycoords=("axes fraction", "data"),
+        xytext=(0, 2),
+        textcoords="offset points",
+        ha="right",
+        va="bottom",
+        fontsize=TEXT_SIZE,
+        color=LIMIT,
+    )

@@ -1,0 +1,63 @@
+"""Names and numbers as a reader who did not write the code wants them."""
+
+from __future__ import annotations
+
+import math
+
+from armik_sym.arm.dh import JointType
+from armik_sym.arm.model import Arm
+
+_RADIANS_TO_DEGREES = 180.0 / math.pi
+_SMALLEST_WORTH_A_NUMBER = 1e-6
+
+
+def joint_title(name: str) -> str:
+    """The name of a joint in words: "shoulder_flexion" → "Shoulder flexion".
+
+    Args:
+        name: Name of the joint.
+
+    Returns:
+        The name in words.
+
+    Source:
+        None (reporting).
+    """
+    words = name.replace("_", " ").strip()
+    return words[:1].upper() + words[1:]
+
+
+def joint_unit(arm: Arm, i: int) -> tuple[str, float]:
+    """The unit a joint is shown in, and the factor from SI to it: deg, or mm for a prismatic joint.
+
+    Args:
+        arm: The arm.
+        i: Index of the joint.
+
+    Returns:
+        Name of the unit, and shown value = factor · value_SI.
+
+    Source:
+        SI.
+    """
+    if arm.chain.moving_links[i].joint is JointType.PRISMATIC:
+        return "mm", 1000.0
+    return "deg", _RADIANS_TO_DEGREES
+
+
+def at_most(value: float, unit: str) -> str:
+    """The largest of some errors in words; what no instrument could see is not spelled out.
+
+    Args:
+        value: The largest error, in `unit`.
+        unit: Its unit.
+
+    Returns:
+        Text such as "at most 0.12 mm" or "below 0.000001 mm".
+
+    Source:
+        None (reporting).
+    """
+    if value < _SMALLEST_WORTH_A_NUMBER:
+        return f"below 0.000001 {unit}"
+    return f"at most {value:.2g} {unit}"
