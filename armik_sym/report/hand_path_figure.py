@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from armik_sym.arm.model import Arm
 from armik_sym.arm.product_of_transforms import hand_pose
 from armik_sym.report.stick_figure import StickFigure, stick_figure
-from armik_sym.report.style import INK, MEASURED, SOLVED, TEXT_SIZE, head, new_figure, style_axes
+from armik_sym.report.style import INK, MEASURED, SOLVED, head, label, new_figure, style_axes
 from armik_sym.solution import Solution
 
 Array = NDArray[np.float64]
@@ -34,8 +35,8 @@ class _View:
 
 
 _ANATOMICAL_VIEWS = (
-    _View("Seen from the side", 2, 0, "forward → [mm]", "up → [mm]"),
-    _View("Seen from above", 1, 2, "to the right → [mm]", "forward → [mm]"),
+    _View("From the side (the person faces right)", 2, 0, "forward → [mm]", "up → [mm]"),
+    _View("From above (the person faces up)", 1, 2, "to the right → [mm]", "forward → [mm]"),
 )
 _PLAIN_VIEWS = (
     _View("x and y", 0, 1, "x [mm]", "y [mm]"),
@@ -72,8 +73,9 @@ def hand_path_figure(solution: Solution, *, title: str | None = None, note: str 
         _draw_path(axes, view, solution, hand)
         axes.set_aspect("equal", adjustable="datalim")
         axes.margins(0.08)
-    facts = f"arm {arm.name}, {solution.path.duration:.1f} s, {'ok' if solution.ok else 'NOT ok'}"
-    head(figure, f"{title or 'Path of the hand'} ({facts})", note=note)
+    facts = f"arm {arm.name}, {solution.path.duration:.1f} s. Verdict: {'ok' if solution.ok else 'NOT ok'}"
+    key = f"Blue: way of the {sticks.names[-1]}. Grey to black: the arm at {len(instants)} instants"
+    head(figure, f"{title or 'Path of the hand'}: {facts}", note=f"{key}; {note}" if note else key)
     return figure
 
 
@@ -92,26 +94,28 @@ def _spread(hand: Array) -> list[int]:
 
 def _draw_sticks(axes: Axes, view: _View, sticks: StickFigure, times: Array) -> None:
     flat = 1000 * sticks.points[:, :, [view.across, view.up]]
+    last = len(flat) - 1
     for k, (points, time) in enumerate(zip(flat, times, strict=True)):
         grey = _GREYS[len(_GREYS) - len(flat) + k]
-        axes.plot(*points.T, color=grey, linewidth=3, marker="o", markersize=5, solid_capstyle="round", zorder=2 + 0.1 * k)
-        _write(axes, points[-1], f"{time:.1f} s", (6, 5), SOLVED)
-    for i, name in enumerate(sticks.names):
-        if name and i < len(sticks.names) - 1:
-            _write(axes, flat[-1, i], name, (8, -10), INK)
+        axes.plot(*points.T, color=grey, linewidth=3, marker="o", markersize=5, zorder=2 + 0.1 * k)
+        word = "start " if k == 0 else "end " if k == last else ""
+        label(axes, points[-1], f"{word}{time:.1f} s", points[-1] - points[-2], SOLVED)
+    # Names go beside the last posture, where it leaves most room: away from the neighbouring points.
+    for i, name in enumerate(sticks.names[:-1]):
+        around = flat[:, i + 1].mean(axis=0) if i == 0 else 0.5 * (flat[last, i - 1] + flat[last, i + 1])
+        if name:
+            label(axes, flat[last, i], name, flat[last, i] - around, INK)
 
 
 def _draw_path(axes: Axes, view: _View, solution: Solution, hand: Array) -> None:
     pick = [view.across, view.up]
     if solution.position_error.max() > _VISIBLE_ERROR:
         wanted = 1000 * solution.path.position[:, pick]
-        axes.plot(*wanted.T, color=MEASURED, linewidth=1.4, linestyle=(0, (3, 2)), zorder=4, label="asked for")
-        _write(axes, wanted[len(wanted) // 2], "path asked for", (8, 8), MEASURED)
+        axes.plot(*wanted.T, color=MEASURED, linewidth=1.4, linestyle=(0, (3, 2)), zorder=4)
+        worst = int(np.argmax(solution.position_error))
+        label(axes, wanted[worst], "path asked for", wanted[worst] - 1000 * hand[worst, pick], MEASURED)
     path = 1000 * hand[:, pick]
-    axes.plot(*path.T, color=SOLVED, linewidth=2.2, zorder=3, label="hand")
-    axes.plot(*path[0], marker="o", markersize=7, color="white", markeredgecolor=SOLVED, markeredgewidth=2, zorder=5)
-    axes.plot(*path[-1], marker="s", markersize=7, color=SOLVED, zorder=5)
-
-
-def _write(axes: Axes, at: Array, words: str, shift: tuple[float, float], colour: str) -> None:
-    axes.annotate(words, at, xytext=shift, textcoords="offset points", fontsize=TEXT_SIZE, color=colour, zorder=6)
+    axes.plot(*path.T, color=SOLVED, linewidth=2.2, zorder=3)
+    ends: dict[str, Any] = {"color": SOLVED, "markersize": 7, "markeredgewidth": 2, "zorder": 5}
+    axes.plot(*path[0], marker="o", markerfacecolor="white", **ends)
+    axes.plot(*path[-1], marker="s", **ends)

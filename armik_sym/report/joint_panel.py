@@ -2,19 +2,33 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from armik_sym.motion.joint_motion import JointMotion
-from armik_sym.report.style import ALLOWED, FAINT, INK, LIMIT, MEASURED, PANEL_SIZE, SOLVED, TEXT_SIZE, style_axes
+from armik_sym.report.style import (
+    ALLOWED,
+    FAINT,
+    INK,
+    LIMIT,
+    MEASURED,
+    PANEL_SIZE,
+    SOLVED,
+    TEXT_SIZE,
+    style_axes,
+)
 from armik_sym.report.words import joint_title, joint_unit
 from armik_sym.solution import Solution
 
-_SOLVED_LINE = {"color": SOLVED, "linewidth": 1.8}
-_MEASURED_LINE = {"color": MEASURED, "linewidth": 1.4, "linestyle": (0, (3, 2))}
-_LIMIT_LINE = {"color": LIMIT, "linewidth": 0.9}
+_SOLVED_LINE: dict[str, Any] = {"color": SOLVED, "linewidth": 1.8}
+_MEASURED_LINE: dict[str, Any] = {"color": MEASURED, "linewidth": 1.4, "linestyle": (0, (3, 2))}
+_LIMIT_LINE: dict[str, Any] = {"color": LIMIT, "linewidth": 0.9}
+_AT_LIMIT = 0.05
 
 
 def draw_joint(axes: Axes, solution: Solution, i: int, measured: JointMotion | None) -> None:
@@ -34,8 +48,9 @@ def draw_joint(axes: Axes, solution: Solution, i: int, measured: JointMotion | N
     lower, upper = factor * solution.arm.rom.lower[i], factor * solution.arm.rom.upper[i]
     word = "angle" if unit == "deg" else "shift"
     style_axes(axes, joint_title(name), "time [s]", f"{word} [{unit}]")
-    margin = factor * solution.rom_margin[i]
-    axes.set_title(f"margin {_number(margin)} {unit}", loc="right", fontsize=TEXT_SIZE, color=FAINT)
+    margin = factor * float(solution.rom_margin[i])
+    colour = FAINT if margin >= _AT_LIMIT else INK if margin >= 0 else MEASURED
+    axes.set_title(_margin_words(margin, unit), loc="right", fontsize=TEXT_SIZE, color=colour)
 
     axes.axhspan(lower, upper, color=ALLOWED, linewidth=0, zorder=0)
     for limit in (lower, upper):
@@ -49,7 +64,8 @@ def draw_joint(axes: Axes, solution: Solution, i: int, measured: JointMotion | N
     low, high = min(lower, axes.dataLim.y0), max(upper, axes.dataLim.y1)
     axes.set_ylim(low - room, high + room)
     axes.set_xlim(solution.time[0], solution.time[-1])
-    axes.set_yticks(_ticks(lower, upper))
+    ticks = _ticks(lower, upper)
+    axes.set_yticks(ticks, [f"{tick:.4g}" for tick in ticks])
 
 
 def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> None:
@@ -66,6 +82,8 @@ def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> No
     axes.set_axis_off()
     tightest = int(np.argmin(solution.rom_margin))
     unit, factor = joint_unit(solution.arm, tightest)
+    name = joint_title(solution.arm.joint_names[tightest]).lower()
+    nearest = _margin_words(factor * float(solution.rom_margin[tightest]), unit)
     entries: list[Line2D | Patch] = [Line2D([], [], **_SOLVED_LINE, label="solved")]
     if measured is not None:
         entries.append(Line2D([], [], **_MEASURED_LINE, label="measured"))
@@ -78,9 +96,8 @@ def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> No
         0.0,
         0.0,
         "Each joint counts up in the movement it is named after.\n"
-        "Margin: smallest distance to a limit; nearest is\n"
-        f"{joint_title(solution.arm.joint_names[tightest]).lower()}, "
-        f"{_number(factor * solution.rom_margin[tightest])} {unit}.",
+        "Margin: smallest distance to a limit of the range of motion.\n"
+        f"Nearest to a limit: {name} ({nearest}).",
         fontsize=TEXT_SIZE,
         color=INK,
         va="bottom",
@@ -88,16 +105,16 @@ def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> No
     ).set_in_layout(False)
 
 
-def _number(value: float) -> str:
-    return f"{value:.1f}" if abs(value) >= 0.05 or value == 0 else f"{value:.1g}"
+def _margin_words(margin: float, unit: str) -> str:
+    if margin < 0:
+        return f"outside by {-margin:.2g} {unit}"
+    return f"margin {margin:.1f} {unit}" if margin >= _AT_LIMIT else "touches its limit"
 
 
 def _ticks(lower: float, upper: float) -> list[float]:
-    """Both limits, and zero between them if it is not too near to either."""
+    """Both limits, and round numbers between them that are not too near to either."""
     width = upper - lower
-    ticks = [lower, upper] if width else [lower]
-    if min(-lower, upper) > 0.15 * width:
-        ticks.insert(1, 0.0)
-    elif width:
-        ticks.insert(1, lower + width / 2)
-    return ticks
+    if width <= 0:
+        return [lower]
+    between = MaxNLocator(nbins=4, steps=[1, 1.5, 2, 3, 4.5, 5, 9, 10]).tick_values(lower, upper)
+    return [lower, *(float(t) for t in between if min(t - lower, upper - t) > 0.15 * width), upper]

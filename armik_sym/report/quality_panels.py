@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from armik_sym.report.style import FAINT, LIMIT, SOLVED, TEXT_SIZE, style_axes
-from armik_sym.report.words import at_most, joint_title, joint_unit
+from armik_sym.report.words import at_most, joint_title, joint_unit, plain
 from armik_sym.solution import Solution
 from armik_sym.solution.motion_rates import joint_speed
 
@@ -40,7 +40,7 @@ def draw_error(axes: Axes, time: Array, error: Array, title: str, unit: str, all
         axes.plot(time, error, color=SOLVED, linewidth=1.4)
         axes.set_ylim(0.0, 1.1 * largest)
         if allowed <= 1.1 * largest:
-            _draw_limit(axes, allowed, f"allowed {allowed:.2g} {unit}")
+            _draw_limit(axes, allowed, f"allowed {plain(allowed)} {unit}")
         return
     axes.set_ylabel(f"error [{unit}], log scale", fontsize=TEXT_SIZE)
     axes.plot(time, np.maximum(error, _FLOOR), color=SOLVED, linewidth=1.0)
@@ -49,7 +49,7 @@ def draw_error(axes: Axes, time: Array, error: Array, title: str, unit: str, all
     axes.set_ylim(_FLOOR, 30 * max(top, largest, _FLOOR))
     axes.minorticks_off()
     if np.isfinite(allowed):
-        _draw_limit(axes, allowed, f"allowed {allowed:.1g} {unit}")
+        _draw_limit(axes, allowed, f"allowed {plain(allowed)} {unit}")
 
 
 def draw_speed(axes: Axes, solution: Solution) -> None:
@@ -78,13 +78,21 @@ def draw_speed(axes: Axes, solution: Solution) -> None:
     axes.set_xlim(solution.time[0], solution.time[-1])
     top = 1.15 * max(float(peak.max()), 1e-9)
     axes.set_ylim(0.0, top)
-    name = joint_title(arm.joint_names[chosen[int(j)]]).lower()
-    limit = factor * solution.requirements.max_speed[chosen[int(j)]]
-    allowed = f", allowed {limit:.0f}" if np.isfinite(limit) else ""
-    axes.set_title(
-        f"{name}: {peak.max():.0f} {unit}/s{allowed}", loc="right", fontsize=TEXT_SIZE, color=FAINT
-    )
+    limit = factor * float(solution.requirements.max_speed[chosen[int(j)]])
+    if np.isfinite(limit):
+        axes.set_title(f"allowed {limit:.0f} {unit}/s", loc="right", fontsize=TEXT_SIZE, color=FAINT)
     axes.plot(between[k], peak[k], marker="o", markersize=4, color=SOLVED)
+    late = between[k] > 0.5 * (solution.time[0] + solution.time[-1])
+    axes.annotate(
+        f"{joint_title(arm.joint_names[chosen[int(j)]]).lower()},\n{peak[k]:.0f} {unit}/s",
+        (between[k], peak[k]),
+        xytext=(-7 if late else 7, 3),
+        textcoords="offset points",
+        ha="right" if late else "left",
+        va="top",
+        fontsize=TEXT_SIZE,
+        color=SOLVED,
+    )
     if limit < top:
         _draw_limit(axes, limit, "")
 

@@ -14,9 +14,9 @@ from armik_sym.report.style import head, new_figure
 from armik_sym.solution import Solution
 from armik_sym.symbolic import Orientation
 
-_COLUMNS = 4
-_ROW_HEIGHT = 2.15
-_WIDTH = 12.0
+_COLUMNS = 3
+_ROW_HEIGHT = 2.2
+_WIDTH = 11.0
 _WARNING_WIDTH = 120
 
 
@@ -48,7 +48,8 @@ def solution_figure(
     grid = page[0].subgridspec(rows, _COLUMNS)
     for i in range(arm.dof):
         draw_joint(figure.add_subplot(grid[divmod(i, _COLUMNS)]), solution, i, measured)
-    draw_key(figure.add_subplot(grid[divmod(arm.dof, _COLUMNS)]), solution, measured)
+    row, column = divmod(arm.dof, _COLUMNS)
+    draw_key(figure.add_subplot(grid[row, column:]), solution, measured)
 
     turned = solution.orientation is not Orientation.NONE
     below = page[1].subgridspec(1, 3 if turned else 2)
@@ -77,9 +78,9 @@ def solution_figure(
 
 def _write_head(figure: Figure, solution: Solution, title: str | None, note: str | None) -> None:
     facts = (
-        f"arm {solution.arm.name}, method {solution.method}, {len(solution.q)} samples: "
-        f"{'ok' if solution.ok else 'NOT ok'}"
+        f"arm {solution.arm.name}, method {solution.method}, {len(solution.q)} samples. "
+        f"Verdict: {'ok' if solution.ok else 'NOT ok'}"
     )
-    whole = f"{title} ({facts})" if title else facts[:1].upper() + facts[1:]
+    whole = f"{title}: {facts}" if title else facts[:1].upper() + facts[1:]
     reasons = textwrap.shorten("; ".join(solution.reasons), _WARNING_WIDTH, placeholder=" …")
     head(figure, whole, note=note, warning=reasons or None)

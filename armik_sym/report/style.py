@@ -8,13 +8,19 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
+from numpy.typing import NDArray
 
 from armik_sym.errors import MotionFileError
+
+Array = NDArray[np.float64]
 
 SOLVED = "#0072B2"
 MEASURED = "#D55E00"
@@ -24,15 +30,16 @@ INK = "#1A1A1A"
 FAINT = "#707070"
 GRID = "#D9D9D9"
 
-TITLE_SIZE = 12.0
+TITLE_SIZE = 11.5
 PANEL_SIZE = 9.5
 TEXT_SIZE = 8.5
 
 FORMATS = (".pdf", ".png", ".svg")
 
 _RESOLUTION_DPI = 150
+_LABEL_DISTANCE = 9.0
 # Text in vector files stays text; the same figure gives the same file.
-_SAVING = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "armik_sym"}
+_SAVING: dict[Any, Any] = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "armik_sym"}
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -91,6 +98,35 @@ def head(figure: Figure, title: str, *, note: str | None, warning: str | None = 
     lines = [title, *(line for line in (note, warning) if line)]
     text: Text = figure.suptitle("\n".join(lines), x=0.01, ha="left", fontsize=TITLE_SIZE, color=INK)
     text.set_color(MEASURED if warning else INK)
+
+
+def label(axes: Axes, at: Array, words: str, away: Array, colour: str) -> None:
+    """Write beside a point, on the side a direction points to, readable on top of lines.
+
+    Args:
+        axes: The panel.
+        at: The point, shape (2,), in data coordinates.
+        words: The text.
+        away: Direction from the point to the text, shape (2,); any length.
+        colour: Colour of the text.
+
+    Source:
+        None (reporting).
+    """
+    length = float(np.hypot(*away))
+    x, y = away / length if length > 0 else np.array([0.7, 0.7])
+    axes.annotate(
+        words,
+        (float(at[0]), float(at[1])),
+        xytext=(_LABEL_DISTANCE * x, _LABEL_DISTANCE * y),
+        textcoords="offset points",
+        ha="left" if x > 0.4 else "right" if x < -0.4 else "center",
+        va="bottom" if y > 0.4 else "top" if y < -0.4 else "center",
+        fontsize=TEXT_SIZE,
+        color=colour,
+        zorder=6,
+        path_effects=[withStroke(linewidth=3, foreground="white")],
+    )
 
 
 def save_figure(figure: Figure, path: str | os.PathLike[str]) -> Path:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from armik_sym.arm.dh import JointType
 from armik_sym.arm.model import Arm
 
@@ -61,3 +63,18 @@ def at_most(value: float, unit: str) -> str:
     if value < _SMALLEST_WORTH_A_NUMBER:
         return f"below 0.000001 {unit}"
     return f"at most {value:.2g} {unit}"
+
+
+def plain(value: float) -> str:
+    """A small number with one digit and without an exponent: 5.7e-8 → "0.00000006".
+
+    Args:
+        value: The number.
+
+    Returns:
+        The text.
+
+    Source:
+        None (reporting).
+    """
+    return np.format_float_positional(value, precision=1, fractional=False, trim="-")

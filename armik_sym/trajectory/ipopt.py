@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.trajectory.full_space import FullSpaceProblem
+from armik_sym.trajectory.interrupt import InterruptWatch
 
 Array = NDArray[np.float64]
 IterationCallback = Callable[[int, float], None]
@@ -57,8 +58,11 @@ class IpoptResult:
 class _Watch(ca.Callback):
     """Called by IPOPT after every iteration: reports progress and lets Ctrl-C stop it cleanly."""
 
-    def __init__(self, n_x: int, bounds: Bounds, report: IterationCallback | None) -> None:
+    def __init__(
+        self, n_x: int, bounds: Bounds, report: IterationCallback | None, ctrl_c: InterruptWatch
+    ) -> None:
         ca.Callback.__init__(self)
+        self._ctrl_c = ctrl_c
         self._sizes = {"x": n_x, "f": 1, "g": len(bounds.lbg), "lam_x": n_x, "lam_g": len(bounds.lbg)}
         self._bounds = bounds
         self._report = report
@@ -80,6 +84,8 @@ class _Watch(ca.Callback):
 
     def eval(self, arguments: Any) -> Any:
         try:
+            if self._ctrl_c.requested:
+                raise KeyboardInterrupt
             if self._report is not None:
                 g = np.asarray(arguments[2]).ravel()
                 outside = np.maximum(self._bounds.lbg - g, g - self._bounds.ubg)
@@ -121,7 +127,8 @@ def run_ipopt(
     Source:
         Wächter & Biegler (2006), doi:10.1007/s10107-004-0559-y.
     """
-    watch = _Watch(len(x0), bounds, report)
+    ctrl_c = InterruptWatch()
+    watch = _Watch(len(x0), bounds, report, ctrl_c)
     solver = ca.nlpsol(
         "trajectory",
         "ipopt",
@@ -140,12 +147,15 @@ def run_ipopt(
         },
     )
     try:
-        found = solver(x0=x0, lbx=bounds.lbx, ubx=bounds.ubx, lbg=bounds.lbg, ubg=bounds.ubg)
+        with ctrl_c:
+            found = solver(x0=x0, lbx=bounds.lbx, ubx=bounds.ubx, lbg=bounds.lbg, ubg=bounds.ubg)
     except RuntimeError:
         if watch.interruption is None:
             raise
     if watch.interruption is not None:
         raise watch.interruption
+    if ctrl_c.requested:
+        raise KeyboardInterrupt
     stats = solver.stats()
     return IpoptResult(
         x=np.asarray(found["x"]).ravel(),
