@@ -19,9 +19,11 @@ from armik_sym.solution import Solution
 Array = NDArray[np.float64]
 
 _ANATOMICAL = "x up, z forward"
-_INSTANTS = 4
+_INSTANTS = 5
+# Postures nearer to each other than this share of the whole path only hide each other.
+_APART = 0.15
 # From light to dark: the last posture is the darkest in a grey print, too.
-_GREYS = ("#BDBDBD", "#969696", "#636363", "#252525")
+_LIGHTEST, _DARKEST = 0.76, 0.13
 _VISIBLE_ERROR = 2e-4
 
 
@@ -72,10 +74,12 @@ def hand_path_figure(solution: Solution, *, title: str | None = None, note: str 
         _draw_sticks(axes, view, sticks, solution.time[instants])
         _draw_path(axes, view, solution, hand)
         axes.set_aspect("equal", adjustable="datalim")
-        axes.margins(0.08)
+        axes.margins(0.14)
     facts = f"arm {arm.name}, {solution.path.duration:.1f} s. Verdict: {'ok' if solution.ok else 'NOT ok'}"
     key = f"Blue: way of the {sticks.names[-1]}. Grey to black: the arm at {len(instants)} instants"
-    head(figure, f"{title or 'Path of the hand'}: {facts}", note=f"{key}; {note}" if note else key)
+    if _misses(solution):
+        key += ". Dashed: the path asked for"
+    head(figure, f"{title or 'Path of the hand'}: {facts}", note=f"{note}\n{key}" if note else key)
     return figure
 
 
@@ -83,20 +87,28 @@ def _views(arm: Arm) -> tuple[_View, _View]:
     return _ANATOMICAL_VIEWS if _ANATOMICAL in arm.description else _PLAIN_VIEWS
 
 
+def _misses(solution: Solution) -> bool:
+    return bool(solution.position_error.max() > _VISIBLE_ERROR)
+
+
 def _spread(hand: Array) -> list[int]:
-    """Samples evenly spread over the way of the hand, the first and the last among them."""
-    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(hand, axis=0), axis=1))])
-    wanted = np.linspace(0.0, way[-1], min(_INSTANTS, len(hand)))
-    found = np.searchsorted(way, wanted - 1e-12)
-    found[-1] = len(hand) - 1
-    return sorted({int(k) for k in found})
+    """The first and the last sample, and those between at which the hand is farthest from the others."""
+    chosen = [0, len(hand) - 1]
+    extent = float(np.linalg.norm(np.ptp(hand, axis=0)))
+    while len(chosen) < _INSTANTS:
+        nearest = np.linalg.norm(hand[:, None] - hand[chosen], axis=2).min(axis=1)
+        k = int(np.argmax(nearest))
+        if nearest[k] <= _APART * extent:
+            break
+        chosen.append(k)
+    return sorted(chosen)
 
 
 def _draw_sticks(axes: Axes, view: _View, sticks: StickFigure, times: Array) -> None:
     flat = 1000 * sticks.points[:, :, [view.across, view.up]]
     last = len(flat) - 1
     for k, (points, time) in enumerate(zip(flat, times, strict=True)):
-        grey = _GREYS[len(_GREYS) - len(flat) + k]
+        grey = str(_LIGHTEST + (_DARKEST - _LIGHTEST) * k / last)
         axes.plot(*points.T, color=grey, linewidth=3, marker="o", markersize=5, zorder=2 + 0.1 * k)
         word = "start " if k == 0 else "end " if k == last else ""
         label(axes, points[-1], f"{word}{time:.1f} s", points[-1] - points[-2], SOLVED)
@@ -109,11 +121,9 @@ def _draw_sticks(axes: Axes, view: _View, sticks: StickFigure, times: Array) -> 
 
 def _draw_path(axes: Axes, view: _View, solution: Solution, hand: Array) -> None:
     pick = [view.across, view.up]
-    if solution.position_error.max() > _VISIBLE_ERROR:
+    if _misses(solution):
         wanted = 1000 * solution.path.position[:, pick]
         axes.plot(*wanted.T, color=MEASURED, linewidth=1.4, linestyle=(0, (3, 2)), zorder=4)
-        worst = int(np.argmax(solution.position_error))
-        label(axes, wanted[worst], "path asked for", wanted[worst] - 1000 * hand[worst, pick], MEASURED)
     path = 1000 * hand[:, pick]
     axes.plot(*path.T, color=SOLVED, linewidth=2.2, zorder=3)
     ends: dict[str, Any] = {"color": SOLVED, "markersize": 7, "markeredgewidth": 2, "zorder": 5}

@@ -94,8 +94,7 @@ def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> No
     key.set_in_layout(False)
     axes.text(
         0.0,
-        0.0,
-        "Each joint counts up in the movement it is named after.\n"
+        0.35,
         "Margin: smallest distance to a limit of the range of motion.\n"
         f"Nearest to a limit: {name} ({nearest}).",
         fontsize=TEXT_SIZE,

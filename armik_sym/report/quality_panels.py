@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from armik_sym.report.style import FAINT, LIMIT, SOLVED, TEXT_SIZE, style_axes
+from armik_sym.report.style import FAINT, LIMIT, SOLVED, TEXT_SIZE, label, style_axes
 from armik_sym.report.words import at_most, joint_title, joint_unit, plain
 from armik_sym.solution import Solution
 from armik_sym.solution.motion_rates import joint_speed
@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 # Below this an error says something about arithmetic only: shown on a logarithmic scale.
 _ROUNDING = 1e-4
 _FLOOR = 1e-15
+# So near to an edge of the panel a centred label would leave it.
+_NEAR_EDGE = 0.3
 
 
 def draw_error(axes: Axes, time: Array, error: Array, title: str, unit: str, allowed: float) -> None:
@@ -72,27 +74,20 @@ def draw_speed(axes: Axes, solution: Solution) -> None:
     peak = speed.max(axis=1)
     k, j = np.unravel_index(int(np.argmax(speed)), speed.shape)
 
-    style_axes(axes, "Speed of the fastest joint", "time [s]", f"speed [{unit}/s]")
+    style_axes(axes, "Fastest joint", "time [s]", f"speed [{unit}/s]")
     axes.fill_between(between, peak, color=SOLVED, alpha=0.15, linewidth=0)
     axes.plot(between, peak, color=SOLVED, linewidth=1.4)
     axes.set_xlim(solution.time[0], solution.time[-1])
-    top = 1.15 * max(float(peak.max()), 1e-9)
+    top = 1.25 * max(float(peak.max()), 1e-9)
     axes.set_ylim(0.0, top)
     limit = factor * float(solution.requirements.max_speed[chosen[int(j)]])
     if np.isfinite(limit):
         axes.set_title(f"allowed {limit:.0f} {unit}/s", loc="right", fontsize=TEXT_SIZE, color=FAINT)
     axes.plot(between[k], peak[k], marker="o", markersize=4, color=SOLVED)
-    late = between[k] > 0.5 * (solution.time[0] + solution.time[-1])
-    axes.annotate(
-        f"{joint_title(arm.joint_names[chosen[int(j)]]).lower()},\n{peak[k]:.0f} {unit}/s",
-        (between[k], peak[k]),
-        xytext=(-7 if late else 7, 3),
-        textcoords="offset points",
-        ha="right" if late else "left",
-        va="top",
-        fontsize=TEXT_SIZE,
-        color=SOLVED,
-    )
+    share = (between[k] - solution.time[0]) / (solution.time[-1] - solution.time[0])
+    away = np.array([1.0 if share < _NEAR_EDGE else -1.0 if share > 1 - _NEAR_EDGE else 0.0, 1.0])
+    name = joint_title(arm.joint_names[chosen[int(j)]]).lower()
+    label(axes, np.array([between[k], peak[k]]), f"{name}, {peak[k]:.0f} {unit}/s", away, SOLVED)
     if limit < top:
         _draw_limit(axes, limit, "")
 

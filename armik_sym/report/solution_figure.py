@@ -58,7 +58,7 @@ def solution_figure(
         figure.add_subplot(below[0]),
         solution.time,
         1000 * solution.position_error,
-        "Distance from the path",
+        "Position error",
         "mm",
         1000 * need.position_tolerance,
     )
@@ -67,7 +67,7 @@ def solution_figure(
             figure.add_subplot(below[1]),
             solution.time,
             np.rad2deg(solution.rotation_error),
-            "Turned away from the path",
+            "Rotation error",
             "deg",
             float(np.rad2deg(need.rotation_tolerance)),
         )

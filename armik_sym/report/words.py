@@ -62,7 +62,7 @@ def at_most(value: float, unit: str) -> str:
     """
     if value < _SMALLEST_WORTH_A_NUMBER:
         return f"below 0.000001 {unit}"
-    return f"at most {value:.2g} {unit}"
+    return f"at most {value:.3g} {unit}"
 
 
 def plain(value: float) -> str:
