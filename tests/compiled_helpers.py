@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import os
 import shutil
 import stat
 import subprocess
@@ -16,7 +15,16 @@ import pytest
 
 from armik_sym.compiled import backend, cache_folder, compiler, kinematics
 
-STRICT = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wshadow", "-Wconversion", "-Wdouble-promotion")
+STRICT = (
+    "-std=c99",
+    "-pedantic",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-Wshadow",
+    "-Wconversion",
+    "-Wdouble-promotion",
+)
 CC = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 
 needs_cc = pytest.mark.skipif(CC is None, reason="no system C compiler")
@@ -75,4 +83,4 @@ def script(path: Path, body: str) -> Path:
 
 def entries(folder: Path) -> list[str]:
     """Names in a cache folder."""
-    return sorted(os.listdir(folder))
+    return sorted(entry.name for entry in folder.iterdir())

@@ -17,7 +17,7 @@ def _rigid(rotvec: list[float], shift: list[float]) -> np.ndarray:
 
 
 def custom(convention: DHConvention) -> Arm:
-    """Prismatic, fixed and odd-angled rows, base and tool, a length used twice, text that C would trip over."""
+    """Prismatic, fixed and odd-angled rows, base and tool, a length used twice, an awkward description."""
     rows = (
         DHLink("lift", theta=0.3, d=0.1, a=0.05, alpha=0.4, joint=JointType.PRISMATIC, sign=-1),
         DHLink("turn", theta=0.7, d=-0.2, a="upper", alpha=-1.1, sign=-1),
@@ -28,12 +28,18 @@ def custom(convention: DHConvention) -> Arm:
     )
     return Arm(
         f"custom_{convention.value}",
-        DHChain(rows, convention, _rigid([0.1, 0.2, -0.3], [0.1, 0.2, 0.3]), _rigid([-0.4, 0.2, 0.9], [0.1, 0, 0])),
+        DHChain(
+            rows, convention, _rigid([0.1, 0.2, -0.3], [0.1, 0.2, 0.3]), _rigid([-0.4, 0.2, 0.9], [0.1, 0, 0])
+        ),
         RangeOfMotion([-0.2, -3, -2, 0, -3], [0.2, 3, 2, 0.5, 3]),
         {"upper": 0.31, "lower": 0.27},
         description="odd */ /* ??/ \\ – ü @ARM@ \n#error x",
     )
 
+
+BARE = Arm(
+    "bare", DHChain((DHLink("a", d=0.1, alpha=0.5), DHLink("b", a=0.2))), RangeOfMotion([-1, -1], [1, 1])
+)
 
 ARMS = {
     arm.name: arm

@@ -37,7 +37,9 @@ def test_frames_equal_the_product_of_transforms(arm):
     symbols = express(arm)
     f = ca.Function("f", [symbols.q, symbols.lengths], list(symbols.frames))
     q = postures(arm, 1)
-    for T, wanted in zip(f(q[0], arm.length_values), joint_frames(arm.chain, q, arm.lengths)[0], strict=False):
+    for T, wanted in zip(
+        f(q[0], arm.length_values), joint_frames(arm.chain, q, arm.lengths)[0], strict=False
+    ):
         np.testing.assert_allclose(np.array(T), wanted, atol=1e-13)
 
 
@@ -77,7 +79,7 @@ def test_default_analytic_jacobian_is_that_of_roll_pitch_yaw():
 def test_baked_lengths_leave_no_symbols():
     symbols = express(human(), "baked")
     assert symbols.lengths.numel() == 0
-    assert ca.symvar(symbols.T_base_hand).__len__() == 7
+    assert len(ca.symvar(symbols.T_base_hand)) == 7
 
 
 def test_unknown_words_are_named():

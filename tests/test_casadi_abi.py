@@ -6,18 +6,15 @@ import casadi as ca
 import numpy as np
 import pytest
 from compiled_helpers import build_strictly, needs_cc
-from sample_arms import ARMS, postures
+from sample_arms import ARMS, BARE, postures
 
-from armik_sym.arm import Arm, DHChain, DHLink, RangeOfMotion
-from armik_sym.compiled.casadi_abi import casadi_entry_points
 from armik_sym.compiled.c_source import CSignature
+from armik_sym.compiled.casadi_abi import casadi_entry_points
 from armik_sym.compiled.kinematic_functions import kinematic_functions
 from armik_sym.compiled.library_source import casadi_library
 from armik_sym.symbolic import express
 
 pytestmark = needs_cc
-
-_NO_LENGTHS = Arm("bare", DHChain((DHLink("a", d=0.1, alpha=0.5), DHLink("b", a=0.2))), RangeOfMotion([-1, -1], [1, 1]))
 
 
 def _externals(arm, folder):
@@ -27,7 +24,7 @@ def _externals(arm, folder):
     return functions, {name: ca.external(f"armik_{name}", handle._name) for name in functions}
 
 
-@pytest.mark.parametrize("arm", [ARMS["ehmcs"], ARMS["custom_modified"], _NO_LENGTHS], ids=lambda a: a.name)
+@pytest.mark.parametrize("arm", [ARMS["ehmcs"], ARMS["custom_modified"], BARE], ids=lambda a: a.name)
 def test_external_functions_equal_the_virtual_machine(tmp_path, arm):
     functions, externals = _externals(arm, tmp_path)
     for name, f in externals.items():
@@ -38,7 +35,7 @@ def test_external_functions_equal_the_virtual_machine(tmp_path, arm):
             np.testing.assert_allclose(np.array(f(q, arm.length_values)), wanted, rtol=1e-13, atol=1e-15)
 
 
-@pytest.mark.parametrize("arm", [ARMS["ehmcs"], _NO_LENGTHS], ids=lambda a: a.name)
+@pytest.mark.parametrize("arm", [ARMS["ehmcs"], BARE], ids=lambda a: a.name)
 def test_external_functions_work_in_a_map(tmp_path, arm):
     functions, externals = _externals(arm, tmp_path)
     n = 25

@@ -43,7 +43,7 @@ def test_equals_finite_differences(arm):
     h = 1e-6
     for i in range(arm.dof):
         step = h * np.eye(arm.dof)[i]
-        slope = (hand_pose(arm.chain, q + step, arm.lengths)[0] - hand_pose(arm.chain, q - step, arm.lengths)[0]) / (
-            2 * h
-        )
+        slope = (
+            hand_pose(arm.chain, q + step, arm.lengths)[0] - hand_pose(arm.chain, q - step, arm.lengths)[0]
+        ) / (2 * h)
         np.testing.assert_allclose(ours[:, :3, i], slope, atol=1e-9)

@@ -59,7 +59,9 @@ def test_right_angle_offsets_share_sine_and_cosine_of_q(k, sign):
     q = ca.SX.sym("q")
     c, s = joint_cos_sin(DHLink("row", theta=k * math.pi / 2, sign=sign), q)
     f = ca.Function("f", [q], [c, s])
-    constants = [f.instruction_constant(i) for i in range(f.n_instructions()) if f.instruction_id(i) == ca.OP_CONST]
+    constants = [
+        f.instruction_constant(i) for i in range(f.n_instructions()) if f.instruction_id(i) == ca.OP_CONST
+    ]
     assert constants == []
     for x in (0.0, 0.3, -2.0):
         angle = k * math.pi / 2 + sign * x

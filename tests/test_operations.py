@@ -22,9 +22,9 @@ _UNARY = {
     "constpow": lambda x: x**2.5,
 }  # fmt: skip
 _BINARY = {
-    "add": lambda x, y: x + y, "sub": lambda x, y: x - y, "mul": lambda x, y: x * y, "div": lambda x, y: x / y,
-    "pow": lambda x, y: x**y, "atan2": ca.atan2, "fmin": ca.fmin, "fmax": ca.fmax, "hypot": ca.hypot,
-    "copysign": ca.copysign, "fmod": ca.fmod, "remainder": ca.remainder,
+    "add": lambda x, y: x + y, "sub": lambda x, y: x - y, "mul": lambda x, y: x * y,
+    "div": lambda x, y: x / y, "pow": lambda x, y: x**y, "atan2": ca.atan2, "fmin": ca.fmin, "fmax": ca.fmax,
+    "hypot": ca.hypot, "copysign": ca.copysign, "fmod": ca.fmod, "remainder": ca.remainder,
     "lt": lambda x, y: x < y, "le": lambda x, y: x <= y, "eq": lambda x, y: x == y, "ne": lambda x, y: x != y,
     "and": ca.logic_and, "or": ca.logic_or, "if_else_zero": lambda x, y: ca.if_else(x, y, 0),
 }  # fmt: skip
@@ -55,7 +55,9 @@ def test_every_spelled_operation_is_exercised():
 
 
 @needs_cc
-@pytest.mark.parametrize(("precision", "dtype", "tolerance"), [("double", np.float64, 1e-14), ("float", np.float32, 1e-6)])
+@pytest.mark.parametrize(
+    ("precision", "dtype", "tolerance"), [("double", np.float64, 1e-14), ("float", np.float32, 1e-6)]
+)
 def test_single_operations_equal_the_virtual_machine(tmp_path, precision, dtype, tolerance):
     function = _single_operations()
     call = caller(build_strictly(_source(function, precision), tmp_path), "ops", len(_NAMES), dtype)
@@ -69,7 +71,13 @@ def test_single_operations_equal_the_virtual_machine(tmp_path, precision, dtype,
             for name, f, w in zip(_NAMES, found, wanted, strict=True):
                 if name in {"sin", "cos", "tan"} and precision == "float" and abs(x) > 1e4:
                     continue  # conditioning, not spelling
-                assert (np.isnan(f) and np.isnan(w)) or f == w or abs(f - w) <= tolerance * abs(w), (name, x, y, f, w)
+                assert (np.isnan(f) and np.isnan(w)) or f == w or abs(f - w) <= tolerance * abs(w), (
+                    name,
+                    x,
+                    y,
+                    f,
+                    w,
+                )
 
 
 @needs_cc

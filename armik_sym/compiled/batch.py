@@ -97,5 +97,5 @@ class VirtualMachineFunction:
         buffer.set_arg(0, q.data)
         if self._lengths.size:
             buffer.set_arg(1, self._lengths.data)
-        buffer.set_res(0, out.data)
+        buffer.set_res(0, out.reshape(-1).data)
         run()

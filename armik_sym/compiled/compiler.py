@@ -103,7 +103,10 @@ def find_compiler() -> Compiler | None:
 @functools.cache
 def _find(cc: str, path: str) -> Compiler | None:
     if cc.strip():
-        found = _probe(tuple(shlex.split(cc)), "$CC")
+        try:
+            found = _probe(tuple(shlex.split(cc)), "$CC")
+        except ValueError as error:
+            raise CompilerError(f"CC={cc!r} cannot be read as a command: {error}") from None
         if found is None:
             raise CompilerError(f"CC={cc!r} cannot be run: unset CC or name a working C compiler")
         return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from importlib import resources
 
@@ -47,7 +48,7 @@ def comment_text(text: str) -> str:
     """
     line = " ".join(text.split())
     line = "".join(c if " " <= c <= "~" and c not in "\\@" else "_" for c in line)
-    return line.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
+    return re.sub(r"\?(?=\?)", "? ", line.replace("*/", "* /").replace("/*", "/ *"))
 
 
 def number_rows(rows: ArrayLike, precision: Precision) -> str:

@@ -39,7 +39,17 @@ class UnitTable:
     rows: tuple[tuple[str, ...], ...]
 
     def place(self, index: int) -> str:
-        """Words for where a sample is: "line 12 (sample 3)"."""
+        """Words for where a sample is: "line 12 (sample 3)".
+
+        Args:
+            index: Index of the sample.
+
+        Returns:
+            The words.
+
+        Source:
+            None (reporting).
+        """
         return f"line {self.lines[index]} (sample {index})"
 
     def values(self, name: str, unit: Unit) -> NDArray[np.float64]:

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from armik_sym.arm.model import Arm
 from armik_sym.arm.product_of_transforms import hand_pose
 from armik_sym.report.stick_figure import StickFigure, stick_figure
-from armik_sym.report.style import INK, MEASURED, SOLVED, head, label, new_figure, style_axes
+from armik_sym.report.style import INK, MEASURED, SOLVED, label, new_figure, style_axes
 from armik_sym.solution import Solution
 
 Array = NDArray[np.float64]
 
 _ANATOMICAL = "x up, z forward"
+_PANEL = (4.8, 4.2)
 _INSTANTS = 5
 # Postures nearer to each other than this share of the whole path only hide each other.
 _APART = 0.15
@@ -64,22 +65,22 @@ def hand_path_figure(solution: Solution, *, title: str | None = None, note: str 
         Compare Nguyen 2021, Fig. 8.
     """
     arm = solution.arm
-    figure = new_figure(11.0, 5.6)
     hand, _ = hand_pose(arm.chain, solution.q, arm.lengths)
     instants = _spread(hand)
     sticks = stick_figure(arm, solution.q[instants])
-    panels = figure.subplots(1, 2)
-    for axes, view in zip(panels, _views(arm), strict=True):
+    key = f"Blue: way of the {sticks.names[-1]}. Grey to black: the arm at {len(instants)} instants."
+    if _misses(solution):
+        key += " Dashed: the path asked for."
+    facts = f"arm {arm.name}, {solution.path.duration:.1f} s. Verdict: {'ok' if solution.ok else 'NOT ok'}"
+    lines = [note, key] if note else [key]
+    figure, grid = new_figure(f"{title or 'Path of the hand'}: {facts}", lines, 1, 2, _PANEL)
+    for column, view in enumerate(_views(arm)):
+        axes = figure.add_subplot(grid[0, column])
         style_axes(axes, view.title, view.x_label, view.y_label)
         _draw_sticks(axes, view, sticks, solution.time[instants])
         _draw_path(axes, view, solution, hand)
         axes.set_aspect("equal", adjustable="datalim")
         axes.margins(0.14)
-    facts = f"arm {arm.name}, {solution.path.duration:.1f} s. Verdict: {'ok' if solution.ok else 'NOT ok'}"
-    key = f"Blue: way of the {sticks.names[-1]}. Grey to black: the arm at {len(instants)} instants"
-    if _misses(solution):
-        key += ". Dashed: the path asked for"
-    head(figure, f"{title or 'Path of the hand'}: {facts}", note=f"{note}\n{key}" if note else key)
     return figure
 
 

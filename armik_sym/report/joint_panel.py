@@ -20,6 +20,7 @@ from armik_sym.report.style import (
     PANEL_SIZE,
     SOLVED,
     TEXT_SIZE,
+    remark,
     style_axes,
 )
 from armik_sym.report.words import joint_title, joint_unit
@@ -50,7 +51,7 @@ def draw_joint(axes: Axes, solution: Solution, i: int, measured: JointMotion | N
     style_axes(axes, joint_title(name), "time [s]", f"{word} [{unit}]")
     margin = factor * float(solution.rom_margin[i])
     colour = FAINT if margin >= _AT_LIMIT else INK if margin >= 0 else MEASURED
-    axes.set_title(_margin_words(margin, unit), loc="right", fontsize=TEXT_SIZE, color=colour)
+    remark(axes, _margin_words(margin, unit), colour)
 
     axes.axhspan(lower, upper, color=ALLOWED, linewidth=0, zorder=0)
     for limit in (lower, upper):

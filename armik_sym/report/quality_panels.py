@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
-from armik_sym.report.style import FAINT, LIMIT, SOLVED, TEXT_SIZE, label, style_axes
-from armik_sym.report.words import at_most, joint_title, joint_unit, plain
+from armik_sym.report.style import LIMIT, SOLVED, TEXT_SIZE, label, remark, style_axes
+from armik_sym.report.words import at_most, joint_title, joint_unit, plain, power_of_ten
 from armik_sym.solution import Solution
 from armik_sym.solution.motion_rates import joint_speed
 
@@ -20,23 +23,36 @@ _FLOOR = 1e-15
 _NEAR_EDGE = 0.3
 
 
-def draw_error(axes: Axes, time: Array, error: Array, title: str, unit: str, allowed: float) -> None:
+@dataclass(frozen=True)
+class PanelWords:
+    """What an error panel is called, and what is allowed.
+
+    Attributes:
+        title: What the error is.
+        unit: Its unit, as shown.
+        allowed: Largest allowed error, in `unit`; infinite if none is set.
+    """
+
+    title: str
+    unit: str
+    allowed: float
+
+
+def draw_error(axes: Axes, time: Array, error: Array, words: PanelWords) -> None:
     """Draw a tracking error over time: linear if it can be measured, logarithmic if it is rounding.
 
     Args:
         axes: The panel.
         time: Time stamps, shape (n,), in [s].
-        error: Errors, shape (n,), in `unit`.
-        title: What the error is.
-        unit: Its unit, as shown.
-        allowed: Largest allowed error, in `unit`; infinite if none is set.
+        error: Errors, shape (n,), in the unit of `words`.
+        words: Title, unit and what is allowed.
 
     Source:
         None (reporting).
     """
-    largest = float(error.max())
-    style_axes(axes, title, "time [s]", f"error [{unit}]")
-    axes.set_title(at_most(largest, unit), loc="right", fontsize=TEXT_SIZE, color=FAINT)
+    largest, unit, allowed = float(error.max()), words.unit, words.allowed
+    style_axes(axes, words.title, "time [s]", f"error [{unit}]")
+    remark(axes, at_most(largest, unit))
     axes.set_xlim(time[0], time[-1])
     if largest >= _ROUNDING:
         axes.plot(time, error, color=SOLVED, linewidth=1.4)
@@ -50,6 +66,7 @@ def draw_error(axes: Axes, time: Array, error: Array, title: str, unit: str, all
     axes.set_yscale("log")
     axes.set_ylim(_FLOOR, 30 * max(top, largest, _FLOOR))
     axes.minorticks_off()
+    axes.yaxis.set_major_formatter(FuncFormatter(power_of_ten))
     if np.isfinite(allowed):
         _draw_limit(axes, allowed, f"allowed {plain(allowed)} {unit}")
 
@@ -82,7 +99,7 @@ def draw_speed(axes: Axes, solution: Solution) -> None:
     axes.set_ylim(0.0, top)
     limit = factor * float(solution.requirements.max_speed[chosen[int(j)]])
     if np.isfinite(limit):
-        axes.set_title(f"allowed {limit:.0f} {unit}/s", loc="right", fontsize=TEXT_SIZE, color=FAINT)
+        remark(axes, f"allowed {limit:.0f} {unit}/s")
     axes.plot(between[k], peak[k], marker="o", markersize=4, color=SOLVED)
     share = (between[k] - solution.time[0]) / (solution.time[-1] - solution.time[0])
     away = np.array([1.0 if share < _NEAR_EDGE else -1.0 if share > 1 - _NEAR_EDGE else 0.0, 1.0])

@@ -9,15 +9,14 @@ from matplotlib.figure import Figure
 
 from armik_sym.motion.joint_motion import JointMotion
 from armik_sym.report.joint_panel import draw_joint, draw_key
-from armik_sym.report.quality_panels import draw_error, draw_speed
-from armik_sym.report.style import head, new_figure
+from armik_sym.report.quality_panels import PanelWords, draw_error, draw_speed
+from armik_sym.report.style import new_figure
 from armik_sym.solution import Solution
 from armik_sym.symbolic import Orientation
 
 _COLUMNS = 3
-_ROW_HEIGHT = 2.2
-_WIDTH = 11.0
-_WARNING_WIDTH = 120
+_PANEL = (2.9, 1.5)
+_REASONS_WIDTH = 150
 
 
 def solution_figure(
@@ -43,44 +42,29 @@ def solution_figure(
     """
     arm = solution.arm
     rows = -(-(arm.dof + 1) // _COLUMNS)
-    figure = new_figure(_WIDTH, 0.8 + _ROW_HEIGHT * (rows + 1))
-    page = figure.add_gridspec(2, 1, height_ratios=[rows, 1])
-    grid = page[0].subgridspec(rows, _COLUMNS)
+    reasons = textwrap.shorten("; ".join(solution.reasons), _REASONS_WIDTH, placeholder=" …")
+    lines = [line for line in (note, reasons) if line]
+    figure, grid = new_figure(_title(solution, title), lines, rows + 1, _COLUMNS, _PANEL)
     for i in range(arm.dof):
         draw_joint(figure.add_subplot(grid[divmod(i, _COLUMNS)]), solution, i, measured)
     row, column = divmod(arm.dof, _COLUMNS)
     draw_key(figure.add_subplot(grid[row, column:]), solution, measured)
 
-    turned = solution.orientation is not Orientation.NONE
-    below = page[1].subgridspec(1, 3 if turned else 2)
     need = solution.requirements
-    draw_error(
-        figure.add_subplot(below[0]),
-        solution.time,
-        1000 * solution.position_error,
-        "Position error",
-        "mm",
-        1000 * need.position_tolerance,
-    )
+    position = PanelWords("Position error", "mm", 1000 * need.position_tolerance)
+    draw_error(figure.add_subplot(grid[rows, 0]), solution.time, 1000 * solution.position_error, position)
+    turned = solution.orientation is not Orientation.NONE
     if turned:
-        draw_error(
-            figure.add_subplot(below[1]),
-            solution.time,
-            np.rad2deg(solution.rotation_error),
-            "Rotation error",
-            "deg",
-            float(np.rad2deg(need.rotation_tolerance)),
-        )
-    draw_speed(figure.add_subplot(below[-1]), solution)
-    _write_head(figure, solution, title, note)
+        rotation = PanelWords("Rotation error", "deg", float(np.rad2deg(need.rotation_tolerance)))
+        error_deg = np.rad2deg(solution.rotation_error)
+        draw_error(figure.add_subplot(grid[rows, 1]), solution.time, error_deg, rotation)
+    draw_speed(figure.add_subplot(grid[rows, 2 if turned else 1]), solution)
     return figure
 
 
-def _write_head(figure: Figure, solution: Solution, title: str | None, note: str | None) -> None:
+def _title(solution: Solution, title: str | None) -> str:
     facts = (
         f"arm {solution.arm.name}, method {solution.method}, {len(solution.q)} samples. "
         f"Verdict: {'ok' if solution.ok else 'NOT ok'}"
     )
-    whole = f"{title}: {facts}" if title else facts[:1].upper() + facts[1:]
-    reasons = textwrap.shorten("; ".join(solution.reasons), _WARNING_WIDTH, placeholder=" …")
-    head(figure, whole, note=note, warning=reasons or None)
+    return f"{title}: {facts}" if title else facts[:1].upper() + facts[1:]

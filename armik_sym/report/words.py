@@ -10,6 +10,7 @@ from armik_sym.arm.dh import JointType
 from armik_sym.arm.model import Arm
 
 _RADIANS_TO_DEGREES = 180.0 / math.pi
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SMALLEST_WORTH_A_NUMBER = 1e-6
 
 
@@ -78,3 +79,22 @@ def plain(value: float) -> str:
         None (reporting).
     """
     return np.format_float_positional(value, precision=1, fractional=False, trim="-")
+
+
+def power_of_ten(value: float, position: int | None = None) -> str:
+    """A tick of a logarithmic scale: 1e-9 → "10⁻⁹".
+
+    Args:
+        value: The number, a power of ten.
+        position: Which tick it is; matplotlib says so, nobody asks.
+
+    Returns:
+        The text, in plain characters.
+
+    Source:
+        None (reporting).
+    """
+    del position
+    if value <= 0:
+        return ""
+    return "10" + str(round(math.log10(value))).translate(_SUPERSCRIPTS)

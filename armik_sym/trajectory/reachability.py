@@ -79,6 +79,9 @@ def nearest_posture(solver: PoseSolver, k: int, starts: list[Array]) -> Reached:
     Returns:
         The best; the search ends at the first that reaches the sample.
 
+    Raises:
+        OptionError: If there is no start.
+
     Source:
         None (multistart).
     """

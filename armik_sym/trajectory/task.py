@@ -70,14 +70,36 @@ class Task:
         return sp.csr_array(sp.kron(acceleration_matrix(self.path.time), sp.eye_array(self.arm.dof)))
 
     def problem(self, *, soft: bool, rates: bool) -> FullSpaceProblem:
-        """The problem, with or without tracking errors as variables and rate rows."""
+        """The problem, with or without tracking errors as variables and rate rows.
+
+        Args:
+            soft: True if tracking errors are variables.
+            rates: True if speed and acceleration are constrained.
+
+        Returns:
+            The problem.
+
+        Source:
+            None (direct transcription).
+        """
         rows = self._rate_rows() if rates else sp.csr_array((0, len(self.path) * self.arm.dof))
         return full_space_problem(
             self.stage, self.arm.length_values, self.targets, self.arm.dof, self._cost(soft), rows, soft=soft
         )
 
     def bounds(self, *, soft: bool, rates: bool) -> Bounds:
-        """Bounds that go with `problem`."""
+        """Bounds that go with `problem`: range of motion, equations and rate limits.
+
+        Args:
+            soft: As for `problem`.
+            rates: As for `problem`.
+
+        Returns:
+            The bounds.
+
+        Source:
+            None (direct transcription).
+        """
         n, m = len(self.path), self.orientation.equations
         lower, upper = np.tile(self.arm.rom.lower, n), np.tile(self.arm.rom.upper, n)
         tracking_lower, tracking_upper = np.zeros(n * m), np.zeros(n * m)
@@ -98,7 +120,18 @@ class Task:
         )
 
     def start_vector(self, q: Array, *, soft: bool) -> Array:
-        """Variables for a guess of the angles; with soft tracking, its errors come along."""
+        """Variables for a guess of the angles; with soft tracking, its errors come along.
+
+        Args:
+            q: Joint angles, shape (n, dof), in [rad].
+            soft: As for `problem`.
+
+        Returns:
+            Shape (n_x,).
+
+        Source:
+            None (bookkeeping).
+        """
         if self.first is not None:
             q = np.vstack([self.first, q[1:]])
         if not soft:
@@ -109,7 +142,17 @@ class Task:
         return np.concatenate([q.ravel(), np.clip(errors.T.ravel(), -10.0, 10.0)])
 
     def exceeds_rates(self, q: Array) -> bool:
-        """True if a joint is faster or accelerates more than allowed."""
+        """True if a joint is faster or accelerates more than allowed.
+
+        Args:
+            q: Joint angles, shape (n, dof), in [rad].
+
+        Returns:
+            Whether any limit is exceeded.
+
+        Source:
+            None (definition).
+        """
         limits = self._rate_limits()
         return bool(np.any(np.abs(self._rate_rows() @ q.ravel()) > limits))
 

@@ -1,0 +1,89 @@
+"""Arguments as people type them, turned into what the library takes."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, cast
+
+from armik_sym.errors import OptionError
+
+if TYPE_CHECKING:
+    from armik_sym.arm.model import Arm
+    from armik_sym.compiled.backend import Backend
+
+_BACKENDS = ("auto", "c", "vm")
+
+
+def backend_name(text: str) -> Backend:
+    """Check the name of a backend.
+
+    Args:
+        text: What was typed.
+
+    Returns:
+        "auto", "c" or "vm".
+
+    Raises:
+        OptionError: If it is another word.
+
+    Source:
+        None (command line).
+    """
+    if text not in _BACKENDS:
+        raise OptionError(f"--backend is {text!r}: valid are {', '.join(_BACKENDS)}")
+    return cast("Backend", text)
+
+
+def posture(text: str, arm: Arm) -> list[float]:
+    """A posture typed in degrees, separated by commas.
+
+    Args:
+        text: What was typed.
+        arm: The arm.
+
+    Returns:
+        Joint angles, shape (dof,), in [rad].
+
+    Raises:
+        OptionError: If it is not one finite number per joint.
+
+    Source:
+        None (command line).
+    """
+    cells = [cell.strip() for cell in text.split(",")]
+    expected = f"expected {arm.dof} angles in degrees, separated by commas: {','.join(arm.joint_names)}"
+    if len(cells) != arm.dof:
+        raise OptionError(f"--start has {len(cells)} angles, {expected}")
+    angles = []
+    for cell in cells:
+        try:
+            value = float(cell)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise OptionError(f"--start holds {cell!r}, {expected}")
+        angles.append(math.radians(value))
+    return angles
+
+
+def rate(name: str, degrees: float | None) -> dict[str, float]:
+    """A joint speed or acceleration limit as an option of the solver, if one was typed.
+
+    Args:
+        name: Name of the option.
+        degrees: The limit, in [deg/s] or [deg/s²], or None.
+
+    Returns:
+        The option in [rad/s] or [rad/s²], or nothing.
+
+    Raises:
+        OptionError: If the limit is not positive.
+
+    Source:
+        None (command line).
+    """
+    if degrees is None:
+        return {}
+    if not degrees > 0:
+        raise OptionError(f"--{name.replace('_', '-')} is {degrees:g}, expected a positive number")
+    return {name: math.radians(degrees)}

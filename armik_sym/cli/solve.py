@@ -1,0 +1,77 @@
+"""`armik solve`: a hand path in, a joint trajectory out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from armik_sym.cli.arguments import backend_name, posture, rate
+from armik_sym.cli.console import say
+from armik_sym.cli.failures import NOT_OK
+from armik_sym.cli.output_files import prepare_folder, write_results
+from armik_sym.cli.progress_bar import ProgressBar
+
+
+def solve(
+    file: Annotated[Path, typer.Argument(help="Hand path: a CSV file with units in its header.")],
+    arm: Annotated[str, typer.Option(help="Arm: a name (ehmcs, human, alfaiz) or a TOML file.")] = "ehmcs",
+    method: Annotated[
+        str, typer.Option(help="Method: trajectory solves all samples at once.")
+    ] = "trajectory",
+    orientation: Annotated[
+        str | None, typer.Option(help="full, pointing or none; default: full if the path has rotations.")
+    ] = None,
+    tracking: Annotated[
+        str | None, typer.Option(help="exact, or soft for noisy or unreachable paths; default: exact.")
+    ] = None,
+    max_speed: Annotated[float | None, typer.Option(help="Largest joint speed, in deg/s.")] = None,
+    max_acceleration: Annotated[
+        float | None, typer.Option(help="Largest joint acceleration, in deg/s^2.")
+    ] = None,
+    start: Annotated[
+        str | None, typer.Option(help="Known first posture: degrees, separated by commas, one per joint.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
+    backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("armik_out"),
+) -> None:
+    """Solve a hand path.
+
+    Writes the joint angles (csv, npz) and figures (png), and prints what they are worth.
+
+    Exit code 0: ok; 1: solved, but not what was asked for; 2: error.
+    """
+    import armik_sym as ak
+
+    chosen_backend = backend_name(backend)
+    options: dict[str, Any] = {
+        **rate("max_speed", max_speed),
+        **rate("max_acceleration", max_acceleration),
+        **{
+            name: value
+            for name, value in (("orientation", orientation), ("tracking", tracking))
+            if value is not None
+        },
+    }
+    model = ak.load_arm(arm)
+    path = ak.read_path(file)
+    first = None if start is None else posture(start, model)
+    prepare_folder(out)
+    with ProgressBar(file.name) as progress:
+        solution = ak.solve(
+            model,
+            path,
+            method,
+            start=first,
+            seed=seed,
+            backend=chosen_backend,
+            progress=progress,
+            **options,
+        )
+    written = write_results(solution, out, file.stem, data_formats=(".csv", ".npz"), title=file.name)
+    say(str(solution))
+    say("  written         " + ", ".join(str(name) for name in written))
+    if not solution.ok:
+        raise typer.Exit(NOT_OK)

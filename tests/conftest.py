@@ -1,0 +1,23 @@
+"""Settings shared by all tests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+# Compiling and first calls make single examples slow on a busy machine; that is no failure.
+settings.register_profile("armik", deadline=None)
+settings.load_profile("armik")
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="session")
+def recordings() -> Path:
+    """Folder of recorded human motion beside the checkout; tests that need it skip where it is absent."""
+    folder = REPOSITORY.parent / "shared" / "data" / "human_motion"
+    if not folder.is_dir():
+        pytest.skip(f"recordings not found in {folder}: they are not part of this project")
+    return folder
