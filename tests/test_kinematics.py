@@ -159,6 +159,7 @@ def test_out_is_filled_and_returned(backend):
         one = np.empty(shape)
         assert getattr(kin, name)(q[4], out=one) is one
         np.testing.assert_array_equal(one, out[4])
+    assert kin.position(q[:0], out=np.empty((0, 3))).shape == (0, 3)
     flat = np.empty((300, 54))
     position, rotation, jacobian = kin.pose_and_jacobian(q, out=flat)
     np.testing.assert_array_equal(position, kin.position(q))

@@ -17,7 +17,7 @@ from armik_sym.arm.dh import DHLink, JointType
 from armik_sym.arm.model import Arm
 from armik_sym.arm.product_of_transforms import hand_pose
 from armik_sym.arm.range_of_motion import RangeOfMotion
-from armik_sym.errors import ArmModelError, UnknownNameError
+from armik_sym.errors import ArmModelError, UnitError, UnknownNameError
 
 CHAIN = DHChain((DHLink("shoulder", d="upper_arm"), DHLink("elbow", a="forearm")))
 ROM = RangeOfMotion([-1.0, 0.0], [1.0, 2.0])
@@ -185,3 +185,9 @@ def test_an_arm_can_be_copied_and_sent_to_another_process(duplicate):
     np.testing.assert_array_equal(twin.chain.base, original.chain.base)
     np.testing.assert_array_equal(twin.rom.lower, original.rom.lower)
     np.testing.assert_array_equal(twin.rom.upper, original.rom.upper)
+
+
+def test_limits_in_degrees_are_recognised_and_refused() -> None:
+    arm = catalog.ehmcs()
+    with pytest.raises(UnitError, match=r"shoulder_abduction.*degrees.*from_degrees"):
+        arm.with_rom(np.rad2deg(arm.rom.lower), np.rad2deg(arm.rom.upper))

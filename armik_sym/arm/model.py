@@ -12,11 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.chain import DHChain
+from armik_sym.arm.dh import JointType
 from armik_sym.arm.names import check_identifier
 from armik_sym.arm.range_of_motion import RangeOfMotion
-from armik_sym.errors import ArmModelError, UnknownNameError
+from armik_sym.errors import ArmModelError, UnitError, UnknownNameError
 
 _LONGEST_SEGMENT = 5.0
+_LARGEST_ANGLE = 4 * math.pi
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +37,7 @@ class Arm:
 
     Raises:
         ArmModelError: If the parts do not fit together.
+        UnitError: If limits of a revolute joint look like degrees.
 
     Source:
         Nguyen 2021, §2 (what describes an arm).
@@ -54,6 +57,7 @@ class Arm:
                 f"arm {self.name!r}: the chain has {self.chain.dof} joints but the range of motion "
                 f"{self.rom.dof}"
             )
+        self._check_angles()
         self._check_lengths()
         try:
             axis = np.array(self.pointing_axis, dtype=np.float64)
@@ -65,6 +69,14 @@ class Arm:
             raise ArmModelError(f"arm {self.name!r}: pointing_axis is {axis}, expected a unit vector (3,)")
         axis.flags.writeable = False
         object.__setattr__(self, "pointing_axis", axis)
+
+    def _check_angles(self) -> None:
+        for link, lower, upper in zip(self.chain.moving_links, self.rom.lower, self.rom.upper, strict=True):
+            if link.joint is JointType.REVOLUTE and max(abs(lower), abs(upper)) > _LARGEST_ANGLE:
+                raise UnitError(
+                    f"arm {self.name!r}: range of motion of {link.name!r} is {lower:g} to {upper:g} rad, more "
+                    "than two full turns: if these are degrees, use RangeOfMotion.from_degrees or np.deg2rad"
+                )
 
     def _check_lengths(self) -> None:
         needed = self.chain.length_names
@@ -116,7 +128,7 @@ class Arm:
         for link in self.chain.links:
             for value in (link.d, link.a):
                 total += self.lengths[value] if isinstance(value, str) else abs(value)
-        prismatic = [link.joint.value == "prismatic" for link in self.chain.moving_links]
+        prismatic = [link.joint is JointType.PRISMATIC for link in self.chain.moving_links]
         farthest = np.maximum(np.abs(self.rom.lower), np.abs(self.rom.upper))
         return total + float(farthest[prismatic].sum())
 

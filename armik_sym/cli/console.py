@@ -1,4 +1,4 @@
-"""Where text and tables go: as wide as needed in a pipe, as wide as the window in a terminal."""
+"""Where text and tables go: tables are never cut, text is wrapped in a terminal only."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 _PIPE_WIDTH = 200
+_TABLE_WIDTH = 160
 
 
 def output() -> Console:
     """The console for results, on stdout.
 
     Returns:
-        A console that takes text literally; in a pipe 200 columns wide, without colours.
+        A console that takes text literally; in a pipe without colours.
 
     Source:
         None (rich).
@@ -36,14 +37,29 @@ def say(text: str) -> None:
     Source:
         None (command line).
     """
-    output().print(text, soft_wrap=True)
+    console = output()
+    console.print(text, soft_wrap=not console.is_terminal)
+
+
+def show(table: Table) -> None:
+    """Write a table to stdout, whole even where the window is too narrow for it.
+
+    Args:
+        table: The table.
+
+    Source:
+        None (command line).
+    """
+    console = output()
+    console.width = max(console.width, _TABLE_WIDTH)
+    console.print(table)
 
 
 def plain_table(columns: list[tuple[str, bool]]) -> Table:
     """A table whose cells are never cut off.
 
     Args:
-        columns: For every column its heading, and whether it holds numbers.
+        columns: For every column its heading, of one or more lines, and whether it holds numbers.
 
     Returns:
         An empty table.
@@ -54,7 +70,7 @@ def plain_table(columns: list[tuple[str, bool]]) -> Table:
     from rich import box
     from rich.table import Table
 
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1, 0, 0))
     for heading, number in columns:
-        table.add_column(heading, justify="right" if number else "left", overflow="fold", no_wrap=False)
+        table.add_column(heading, justify="right" if number else "left", no_wrap=True)
     return table

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armik_sym.cli.arguments import backend_name
-from armik_sym.cli.console import output, plain_table, say
+from armik_sym.cli.console import plain_table, say, show
 from armik_sym.cli.demo_row import HEADINGS, row
 from armik_sym.cli.failures import NOT_OK
 from armik_sym.cli.output_files import prepare_folder, write_results
@@ -70,7 +70,8 @@ def _report(solved: list[tuple[Task, Solution]], out: Path) -> None:
     table = plain_table(HEADINGS)
     for task, solution in solved:
         table.add_row(*row(task, solution))
-    output().print(table)
+    show(table)
+    say("")
     for task, solution in solved:
         for reason in solution.reasons:
             say(f"{task.name}: {reason}")

@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 HEADINGS = [
     ("task", False),
     ("samples", True),
-    ("position error [mm]", True),
-    ("rotation error [deg]", True),
-    ("smallest margin [deg]", True),
-    ("largest step [deg]", True),
-    ("to measured, largest [deg]", True),
-    ("to measured, mean [deg]", True),
-    ("time [s]", True),
+    ("position\nerror\n[mm]", True),
+    ("rotation\nerror\n[deg]", True),
+    ("smallest\nmargin\n[deg]", True),
+    ("largest\nstep\n[deg]", True),
+    ("largest\ndifference to\nmeasured [deg]", True),
+    ("mean\n[deg]", True),
+    ("time\n[s]", True),
     ("verdict", False),
 ]
 

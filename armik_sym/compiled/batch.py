@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import threading
+from collections.abc import Callable
 from typing import Any, Protocol
 
 import casadi as ca
@@ -26,13 +28,13 @@ class PostureFunction(Protocol):
 
 
 class _Scratch(threading.local):
-    """Buffers with known addresses, one set per thread: finding an address costs more than a call."""
+    """Buffers and the call that uses them, one set per thread: finding an address costs more than a call."""
 
-    def __init__(self, dof: int, size: int) -> None:
+    def __init__(self, loop: Callable[..., None], lengths: Array, dof: int, size: int) -> None:
         self.q = np.empty(dof)
         self.out = np.empty(size)
-        self.q_address = self.q.ctypes.data
-        self.out_address = self.out.ctypes.data
+        addresses = (ctypes.c_void_p(array.ctypes.data) for array in (self.q, lengths, self.out))
+        self.run = functools.partial(loop, ctypes.c_ssize_t(1), *addresses)
 
 
 class CompiledFunction:
@@ -46,13 +48,13 @@ class CompiledFunction:
         self._lengths = lengths
         self._lengths_address = lengths.ctypes.data
         self._size = function.numel_out(0)
-        self._scratch = _Scratch(function.numel_in(0), self._size)
+        self._scratch = _Scratch(self._loop, lengths, function.numel_in(0), self._size)
 
     def one(self, q: Array) -> Array:
         """Evaluate one posture (dof,): a new array (size,)."""
         scratch = self._scratch
         scratch.q[:] = q
-        self._loop(1, scratch.q_address, self._lengths_address, scratch.out_address)
+        scratch.run()
         return scratch.out.copy()
 
     def many(self, q: Array, out: Array | None = None) -> Array:
@@ -97,5 +99,5 @@ class VirtualMachineFunction:
         buffer.set_arg(0, q.data)
         if self._lengths.size:
             buffer.set_arg(1, self._lengths.data)
-        buffer.set_res(0, out.reshape(-1).data)
+        buffer.set_res(0, out.data)
         run()

@@ -12,7 +12,6 @@ from armik_sym.errors import OptionError
 Precision = Literal["double", "float"]
 
 SUFFIX = {"double": "", "float": "f"}
-_NOT_FINITE = {"nan": "NAN", "inf": "INFINITY"}
 
 
 def check_precision(precision: str) -> Precision:
@@ -57,5 +56,8 @@ def c_constant(value: float, precision: Precision) -> str:
         text = repr(float(value))
     # Signed zero included: "-" before "-0.0" would read as a decrement.
     negative = math.copysign(1.0, value) < 0
-    digits = _NOT_FINITE.get(text.lstrip("-"), f"{text}{SUFFIX[precision]}".lstrip("-"))
-    return f"(-{digits})" if negative and digits != "NAN" else digits
+    digits = text.lstrip("-")
+    if digits == "nan":
+        return f"(({precision})NAN)"
+    digits = f"({precision})INFINITY" if digits == "inf" else f"{digits}{SUFFIX[precision]}"
+    return f"(-{digits})" if negative else digits

@@ -32,7 +32,17 @@ class CSignature:
     outputs: tuple[tuple[str, int], ...]
 
     def declaration(self, real: str) -> str:
-        """The C declaration without the final semicolon."""
+        """The C declaration without the final semicolon.
+
+        Args:
+            real: Name of the number type.
+
+        Returns:
+            C source text.
+
+        Source:
+            None (C99, 6.7.5.3).
+        """
         arguments = [f"const {real} *restrict {name}" for name, _ in self.inputs]
         arguments += [f"{real} *restrict {name}" for name, _ in self.outputs]
         return f"void {self.name}({', '.join(arguments)})"

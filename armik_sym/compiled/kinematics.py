@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import time
 from dataclasses import dataclass
 
@@ -149,7 +150,7 @@ class Kinematics:
             _check_out(out, (*postures.shape[:-1], *shape))
             if np.may_share_memory(out, postures):
                 postures = postures.copy()
-            function.many(postures.reshape(-1, self._dof), out)
+            function.many(postures.reshape(-1, self._dof), out.reshape(-1, math.prod(shape)))
             return out
         if postures.ndim == 1:
             return function.one(postures).reshape(shape)

@@ -4,7 +4,7 @@ Nothing here touches pyplot: figures are plain objects, work without a display a
 """
 
 from armik_sym.report.hand_path_figure import hand_path_figure
+from armik_sym.report.page import save_figure
 from armik_sym.report.solution_figure import solution_figure
-from armik_sym.report.style import save_figure
 
 __all__ = ["hand_path_figure", "save_figure", "solution_figure"]

@@ -12,17 +12,20 @@ from numpy.typing import NDArray
 
 from armik_sym.arm.model import Arm
 from armik_sym.arm.product_of_transforms import hand_pose
+from armik_sym.report.page import new_figure
 from armik_sym.report.stick_figure import StickFigure, stick_figure
-from armik_sym.report.style import INK, MEASURED, SOLVED, label, new_figure, style_axes
+from armik_sym.report.style import INK, MEASURED, SOLVED, label, style_axes
 from armik_sym.solution import Solution
 
 Array = NDArray[np.float64]
 
 _ANATOMICAL = "x up, z forward"
 _PANEL = (4.8, 4.2)
+_MARGIN = 0.14
+_SMALLEST_SCALE = 1.0  # [mm/inch]
 _INSTANTS = 5
-# Postures nearer to each other than this share of the whole path only hide each other.
-_APART = 0.15
+# Postures nearer to each other than this share of the whole path, or than this, hide each other.
+_APART_SHARE, _APART = 0.15, 0.08
 # From light to dark: the last posture is the darkest in a grey print, too.
 _LIGHTEST, _DARKEST = 0.76, 0.13
 _VISIBLE_ERROR = 2e-4
@@ -79,13 +82,22 @@ def hand_path_figure(solution: Solution, *, title: str | None = None, note: str 
         style_axes(axes, view.title, view.x_label, view.y_label)
         _draw_sticks(axes, view, sticks, solution.time[instants])
         _draw_path(axes, view, solution, hand)
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.margins(0.14)
+        _equal_axes(axes)
     return figure
 
 
 def _views(arm: Arm) -> tuple[_View, _View]:
     return _ANATOMICAL_VIEWS if _ANATOMICAL in arm.description else _PLAIN_VIEWS
+
+
+def _equal_axes(axes: Axes) -> None:
+    """Limits that hold everything drawn, with room for labels, and the same scale in both directions."""
+    drawn = axes.dataLim
+    scale = (1 + 2 * _MARGIN) * max(drawn.width / _PANEL[0], drawn.height / _PANEL[1], _SMALLEST_SCALE)
+    middle_x, middle_y = 0.5 * (drawn.x0 + drawn.x1), 0.5 * (drawn.y0 + drawn.y1)
+    axes.set_xlim(middle_x - 0.5 * scale * _PANEL[0], middle_x + 0.5 * scale * _PANEL[0])
+    axes.set_ylim(middle_y - 0.5 * scale * _PANEL[1], middle_y + 0.5 * scale * _PANEL[1])
+    axes.set_aspect("equal", adjustable="datalim")
 
 
 def _misses(solution: Solution) -> bool:
@@ -99,7 +111,7 @@ def _spread(hand: Array) -> list[int]:
     while len(chosen) < _INSTANTS:
         nearest = np.linalg.norm(hand[:, None] - hand[chosen], axis=2).min(axis=1)
         k = int(np.argmax(nearest))
-        if nearest[k] <= _APART * extent:
+        if nearest[k] <= max(_APART, _APART_SHARE * extent):
             break
         chosen.append(k)
     return sorted(chosen)

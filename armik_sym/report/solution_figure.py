@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from armik_sym.motion.joint_motion import JointMotion
 from armik_sym.report.joint_panel import draw_joint, draw_key
+from armik_sym.report.page import new_figure
 from armik_sym.report.quality_panels import PanelWords, draw_error, draw_speed
-from armik_sym.report.style import new_figure
 from armik_sym.solution import Solution
 from armik_sym.symbolic import Orientation
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.arm.model import Arm
+from armik_sym.errors import ShapeError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.solution.motion_rates import arc_length, joint_acceleration, joint_speed
 from armik_sym.solution.timing import Timing
@@ -45,6 +46,9 @@ class Solution:
         status: The solver's own word.
         iterations: Iterations of the solver.
         settings: Options used, for the record.
+
+    Raises:
+        ShapeError: If `q` does not fit path and arm.
     """
 
     arm: Arm
@@ -61,6 +65,11 @@ class Solution:
 
     def __post_init__(self) -> None:
         q = np.array(self.q, dtype=np.float64)
+        if q.shape != (len(self.path), self.arm.dof):
+            raise ShapeError(
+                f"q has shape {q.shape}, expected ({len(self.path)}, {self.arm.dof}): one row per sample of "
+                f"the path, one column per joint of arm {self.arm.name!r}"
+            )
         q.flags.writeable = False
         object.__setattr__(self, "q", q)
 

@@ -16,6 +16,9 @@ Array = NDArray[np.float64]
 _SMALLEST_DAMPING = 1e-9
 _SOLVED = 1e-10
 
+# A sample counts as reached where less than this is left of the error, in [m].
+REACHED = 1e-7
+
 
 @dataclass(frozen=True, eq=False)
 class Reached:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.arm.range_of_motion import RangeOfMotion
-from armik_sym.trajectory.damped_least_squares import PoseSolver
+from armik_sym.trajectory.damped_least_squares import REACHED, PoseSolver
 from armik_sym.trajectory.guess import Guess
 from armik_sym.trajectory.posture_graph import graph_guess
 
@@ -82,6 +82,36 @@ def follow(solver: PoseSolver, time: Array, first: Array) -> tuple[Array, Array]
     everywhere[visited] = errors
     filled = [np.interp(time, time[visited], column) for column in postures.T]
     return np.array(filled).T, everywhere
+
+
+def first_near(solver: PoseSolver, rom: RangeOfMotion, start: Array, seed: int) -> Array:
+    """The posture at sample 0 that a known start leads to.
+
+    Where the way down from `start` ends beside the sample, the one nearest to `start` among postures
+    reached from random ones.
+
+    Args:
+        solver: Finds postures for samples.
+        rom: Range of motion.
+        start: Known posture, shape (dof,), in [rad].
+        seed: Seed of the random postures.
+
+    Returns:
+        Posture, shape (dof,), in [rad]; it misses the sample if none was found that does not.
+
+    Source:
+        None (multistart).
+    """
+    direct = solver.reach(0, start)
+    if direct.error < REACHED:
+        return direct.q
+    rng = np.random.default_rng(seed)
+    tries = start + rng.uniform(0, 1, (_RANDOM_STARTS, 1)) * (
+        rom.lower + rom.width * rng.uniform(0, 1, (_RANDOM_STARTS, rom.dof)) - start
+    )
+    others = [solver.reach(0, q) for q in tries]
+    found = [other.q for other in others if other.error < REACHED]
+    return min(found, key=lambda q: float(np.abs(q - start).max()), default=direct.q)
 
 
 def first_postures(solver: PoseSolver, n: int, rom: RangeOfMotion, seed: int) -> list[Array]:

@@ -7,9 +7,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.dh import JointType
 from armik_sym.arm.model import Arm
-from armik_sym.errors import LimitError, ShapeError
+from armik_sym.errors import LimitError, OptionError, ShapeError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.solution.motion_rates import joint_acceleration, joint_speed
+from armik_sym.symbolic import Orientation
 
 Array = NDArray[np.float64]
 
@@ -25,7 +26,7 @@ def check_start(arm: Arm, start: ArrayLike | None) -> Array | None:
         The posture, or None.
 
     Raises:
-        ShapeError: If it has not one angle per joint.
+        ShapeError: If it has not one number per joint.
         LimitError: If an angle is not finite or outside its range.
 
     Source:
@@ -33,7 +34,12 @@ def check_start(arm: Arm, start: ArrayLike | None) -> Array | None:
     """
     if start is None:
         return None
-    q = np.array(start, dtype=np.float64)
+    try:
+        q = np.array(start, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ShapeError(
+            f"start is {start!r}, expected {arm.dof} numbers, one angle per joint in [rad]"
+        ) from None
     if q.shape != (arm.dof,):
         raise ShapeError(f"start has shape {q.shape}, expected ({arm.dof},), one angle per joint in [rad]")
     outside = np.flatnonzero(~(arm.rom.margin(q) >= 0))
@@ -46,6 +52,29 @@ def check_start(arm: Arm, start: ArrayLike | None) -> Array | None:
             f"({np.rad2deg(arm.rom.lower[i]):.4g}° to {np.rad2deg(arm.rom.upper[i]):.4g}°){hint}"
         )
     return q
+
+
+def check_enough_joints(arm: Arm, orientation: Orientation) -> None:
+    """Refuse exact tracking with more equations per sample than joints: m ≤ dof.
+
+    Args:
+        arm: The arm.
+        orientation: What of the path is tracked.
+
+    Raises:
+        OptionError: If there are fewer joints than equations.
+
+    Source:
+        None (degrees of freedom).
+    """
+    if arm.dof >= orientation.equations:
+        return
+    fits = [mode.value for mode in Orientation if mode.equations <= arm.dof]
+    lower = f" orientation={' or '.join(repr(mode) for mode in fits)}, or" if fits else ""
+    raise OptionError(
+        f"orientation {orientation.value!r} asks {orientation.equations} equations of every sample, but arm "
+        f'{arm.name!r} has {arm.dof} joints: use{lower} tracking="soft"'
+    )
 
 
 def raise_too_fast(arm: Arm, path: HandPath, q: Array, max_speed: Array, max_acceleration: Array) -> None:

@@ -143,6 +143,9 @@ def run_ipopt(
             "calc_lam_p": False,
             "error_on_fail": False,
             "record_time": False,
+            # Bounds are made here and sound; the check would print where joints of zero range leave fewer
+            # variables than equations, which IPOPT can handle.
+            "inputs_check": False,
             "ipopt": _settings(max_iterations, output),
         },
     )
@@ -170,7 +173,7 @@ def _settings(max_iterations: int, output: bool) -> dict[str, Any]:
     return {
         "print_level": 5 if output else 0,
         "sb": "no" if output else "yes",
-        "max_iter": max_iterations,
+        "max_iter": int(max_iterations),
         "tol": 1e-8,
         "constr_viol_tol": _FEASIBLE,
         "acceptable_tol": 1e-6,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from dataclasses import dataclass
 from typing import Literal
 
@@ -70,6 +71,8 @@ class TrajectoryOptions:
             _check(name, getattr(self, name), zero=True)
         for name in ("position_sigma", "rotation_sigma", "max_iterations"):
             _check(name, getattr(self, name), zero=False)
+        if self.max_iterations != int(self.max_iterations):
+            raise OptionError(f"max_iterations is {self.max_iterations!r}, expected a whole number")
         for name in ("position_tolerance", "rotation_tolerance"):
             if getattr(self, name) is not None:
                 _check(name, getattr(self, name), zero=False)
@@ -130,7 +133,10 @@ def rate_limit(name: str, value: float | ArrayLike | None, arm: Arm) -> NDArray[
     Source:
         None (bookkeeping).
     """
-    limits = np.asarray(np.inf if value is None else value, dtype=np.float64)
+    try:
+        limits = np.asarray(np.inf if value is None else value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise LimitError(f"{name} is {value!r}, expected one number or {arm.dof}, one per joint") from None
     if limits.ndim > 1 or (limits.ndim == 1 and limits.shape != (arm.dof,)):
         raise LimitError(f"{name} has shape {limits.shape}, expected one number or {arm.dof}, one per joint")
     limits = np.broadcast_to(limits, (arm.dof,)).copy()
@@ -145,6 +151,7 @@ def rate_limit(name: str, value: float | ArrayLike | None, arm: Arm) -> NDArray[
 
 
 def _check(name: str, value: float, *, zero: bool) -> None:
-    good = isinstance(value, (int, float)) and math.isfinite(value) and (value >= 0 if zero else value > 0)
+    number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    good = number and math.isfinite(value) and (value >= 0 if zero else value > 0)
     if not good:
         raise OptionError(f"{name} is {value!r}, expected a finite number {'≥' if zero else '>'} 0")

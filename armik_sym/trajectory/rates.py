@@ -59,7 +59,8 @@ def sample_durations(time: Array) -> Array:
         None (trapezoidal rule).
     """
     half = 0.5 * np.diff(time)
-    return np.concatenate([half, [0.0]]) + np.concatenate([[0.0], half])
+    durations: Array = np.concatenate([half, [0.0]]) + np.concatenate([[0.0], half])
+    return durations
 
 
 def smoothness_matrix(

@@ -12,11 +12,10 @@ from armik_sym.errors import OptionError, UnreachablePathError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.solution.tracking_error import tracking_errors
 from armik_sym.symbolic import Orientation
-from armik_sym.trajectory.damped_least_squares import PoseSolver, Reached
+from armik_sym.trajectory.damped_least_squares import REACHED, PoseSolver, Reached
 
 Array = NDArray[np.float64]
 
-REACHED = 1e-7
 _STARTS = 30
 _FEW_STARTS = 3
 _THOROUGH = 30
@@ -55,7 +54,8 @@ def find_unreachable(solver: PoseSolver, arm: Arm, n: int, q0: Array, seed: int)
     postures, errors = solver.follow(np.arange(n), q0)
     missed = np.flatnonzero(errors >= REACHED)
     rng = np.random.default_rng(seed)
-    samples, nearest = [], []
+    samples: list[int] = []
+    nearest: list[Array] = []
     for k in missed:
         # Once many samples are lost for certain, a few tries tell whether their neighbours are, too.
         count = _STARTS if len(samples) < _THOROUGH else _FEW_STARTS

@@ -11,20 +11,25 @@ from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.model import Arm
 from armik_sym.compiled.backend import Backend
-from armik_sym.compiled.kinematics import Kinematics, compile
+from armik_sym.compiled.kinematics import compile
 from armik_sym.compiled.stage_functions import compile_stage
 from armik_sym.errors import SolverError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.progress import Progress, ProgressCallback
 from armik_sym.solution import Requirements, Solution, Timing
 from armik_sym.trajectory.attempts import Attempt, attempts
-from armik_sym.trajectory.damped_least_squares import PoseSolver
-from armik_sym.trajectory.first_guess import guesses
+from armik_sym.trajectory.damped_least_squares import REACHED, PoseSolver
+from armik_sym.trajectory.first_guess import first_near, guesses
 from armik_sym.trajectory.guess import Guess
-from armik_sym.trajectory.input_checks import check_hand_speed, check_start, raise_too_fast
+from armik_sym.trajectory.input_checks import (
+    check_enough_joints,
+    check_hand_speed,
+    check_start,
+    raise_too_fast,
+)
 from armik_sym.trajectory.options import TrajectoryOptions, rate_limit
 from armik_sym.trajectory.pose_error import SampleError
-from armik_sym.trajectory.reachability import REACHED, find_unreachable, nearest_posture, raise_unreachable
+from armik_sym.trajectory.reachability import find_unreachable, nearest_posture, raise_unreachable
 from armik_sym.trajectory.task import Task
 
 Array = NDArray[np.float64]
@@ -72,17 +77,23 @@ def solve_trajectory(
     """
     began = time.perf_counter()
     orientation = options.orientation_for(path)
+    if options.tracking == "exact":
+        check_enough_joints(arm, orientation)
     max_speed = rate_limit("max_speed", options.max_speed, arm)
     max_acceleration = rate_limit("max_acceleration", options.max_acceleration, arm)
     start = check_start(arm, start)
     check_hand_speed(arm, path, max_speed)
+    called = time.perf_counter()
     kinematics = compile(arm, backend)
+    between = time.perf_counter()
     stage = compile_stage(arm, orientation, backend)
     ready = time.perf_counter()
+    compile_time = _spent_now(kinematics.compile_time, between - called)
+    compile_time += _spent_now(stage.compile_time, ready - between)
 
     pose_solver = PoseSolver(kinematics, SampleError(arm, path, orientation))
     soft = options.tracking == "soft"
-    first = None if start is None else pose_solver.reach(0, start).q
+    first = None if start is None else first_near(pose_solver, arm.rom, start, seed)
     task = Task(arm, path, orientation, options, max_speed, max_acceleration, first, stage)
     if progress:
         progress(Progress("first guess"))
@@ -90,7 +101,6 @@ def solve_trajectory(
     if not soft:
         tries = _exact_guesses(tries, task, pose_solver, seed)
     outcome = _first_converged(task, attempts(task, tries, soft=soft, progress=progress))
-    compile_time = _compile_time(kinematics, stage.compile_time, ready - began)
     return Solution(
         arm=arm,
         path=path,
@@ -155,7 +165,6 @@ def _first_converged(task: Task, outcomes: Iterator[Attempt]) -> Attempt:
     )
 
 
-def _compile_time(kinematics: Kinematics, stage: float, elapsed: float) -> float:
-    """Compile time of this call: programs kept from earlier calls were compiled then, not now."""
-    total = kinematics.compile_time + stage
-    return total if total <= elapsed else 0.0
+def _spent_now(compile_time: float, elapsed: float) -> float:
+    """Compile time that fell into this call: a program kept from an earlier call was compiled then."""
+    return compile_time if compile_time <= elapsed else 0.0

@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 
 # IPOPT satisfies rate rows to 1e-10; limits are drawn in by more than that, so that they hold exactly.
 _RATE_MARGIN = 1e-8
+_RATE_SLACK = 2e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +112,8 @@ class Task:
         if soft:
             lower = np.concatenate([lower, np.full(n * m, -np.inf)])
             upper = np.concatenate([upper, np.full(n * m, np.inf)])
-        limits = self._rate_limits() * (1 - _RATE_MARGIN) if rates else np.empty(0)
+        limits = self._rate_limits() if rates else np.empty(0)
+        limits = np.maximum(limits * (1 - _RATE_MARGIN) - _RATE_SLACK, 0.5 * limits)
         return Bounds(
             lower,
             upper,

@@ -1,0 +1,173 @@
+"""The command `armik`: what it writes, prints and returns."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import armik_sym as ak
+from armik_sym._version import __version__
+from armik_sym.cli import app
+from armik_sym.motion.bundled import data_folder
+
+TASK = data_folder() / "tasks" / "drinking_reach_path.csv"
+ANSI = "\x1b["
+ROOT = Path(ak.__file__).parents[1]
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def python(*arguments, **options):
+    """A process of its own, whose output is piped."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "error", "COLUMNS": "40"}
+    return subprocess.Popen(
+        [sys.executable, *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        encoding="utf-8",
+        env=environment,
+        **options,
+    )
+
+
+def test_help_and_version():
+    result = run("--help")
+    assert result.exit_code == 0
+    for name in ("demo", "solve", "emit-c", "doctor"):
+        assert re.search(rf"^  {name} ", result.stdout, re.MULTILINE)
+    assert run("--version").stdout == f"armik_sym {__version__}\n"
+    for name in ("demo", "solve", "emit-c", "doctor"):
+        assert run(name, "--help").exit_code == 0
+
+
+def test_help_needs_no_solver_and_no_figures():
+    """With a parent package that imports nothing, the commands themselves import nothing heavy."""
+    code = (
+        "import sys, types; parent = types.ModuleType('armik_sym'); parent.__path__ = [sys.argv.pop(1)];"
+        "sys.modules['armik_sym'] = parent\n"
+        "from armik_sym.cli import main\n"
+        "try: main()\n"
+        "except SystemExit: pass\n"
+        "heavy = {'casadi', 'matplotlib', 'scipy', 'rich', 'control', 'serial'} & set(sys.modules)\n"
+        "sys.exit(f'imported {heavy}' if heavy else 0)"
+    )
+    process = python("-c", code, ROOT / "armik_sym", "--help")
+    out, error = process.communicate(timeout=60)
+    assert process.returncode == 0, error
+    assert "emit-c" in out
+
+
+def test_demo_in_a_pipe_writes_everything_and_cuts_nothing(tmp_path):
+    process = python("-m", "armik_sym", "demo", "--out", tmp_path / "demo")
+    out, error = process.communicate(timeout=120)
+    assert (process.returncode, error) == (0, "")
+    assert ANSI not in out
+    assert "synthetic" in out
+    assert str(tmp_path / "demo") in out
+    for name in ak.task_names():
+        (line,) = [line for line in out.splitlines() if line.startswith(name)]
+        assert line.split()[-1] == "ok"
+        assert len(line.split()) == 10
+        for ending in ("solution.csv", "joints.png", "hand.png"):
+            assert (tmp_path / "demo" / f"{name}_{ending}").stat().st_size > 1000
+    assert "synthetic" in (tmp_path / "demo" / "README.txt").read_text(encoding="utf-8")
+
+
+def test_solve_writes_angles_and_figures_and_says_what_they_are_worth(tmp_path):
+    result = run("solve", TASK, "--backend", "vm", "--out", tmp_path / "out", "--seed", "3")
+    assert result.exit_code == 0, result.stderr
+    assert result.stdout.startswith("ok: arm ehmcs, 141 samples")
+    assert ANSI not in result.stdout
+    stem = tmp_path / "out" / TASK.stem
+    for ending in ("solution.csv", "solution.npz", "joints.png", "hand.png"):
+        assert Path(f"{stem}_{ending}").exists()
+        assert f"{stem}_{ending}" in result.stdout
+    with np.load(f"{stem}_solution.npz") as saved:
+        assert json.loads(str(saved["record"]))["seed"] == 3
+        q = saved["q"]
+    with Path(f"{stem}_solution.csv").open(encoding="utf-8") as file:
+        next(file)
+        rows = list(csv.reader(file))
+    assert rows[0][1] == "shoulder_abduction [deg]"
+    np.testing.assert_allclose(np.deg2rad(np.array(rows[1:], dtype=float)[:, 1:8]), q, atol=1e-12)
+
+
+def test_options_of_solve_reach_the_solver_in_si_units(tmp_path, monkeypatch):
+    seen = {}
+
+    def spy(arm, path, method, **options):
+        seen.update(options, arm=arm.name, method=method)
+        raise ak.ArmikError("enough")
+
+    monkeypatch.setattr(ak, "solve", spy)
+    result = run(
+        "solve", TASK, "--arm", "human", "--orientation", "none", "--tracking", "soft", "--max-speed", "180",
+        "--max-acceleration", "360", "--start", "10,20, 0,90,0,0,0", "--seed", "7", "--backend", "vm",
+        "--out", tmp_path,
+    )  # fmt: skip
+    assert (result.exit_code, result.stderr) == (2, "error: enough\n")
+    assert seen.pop("progress") is not None
+    assert seen.pop("start") == pytest.approx(np.deg2rad([10, 20, 0, 90, 0, 0, 0]))
+    assert seen.pop("max_speed") == pytest.approx(np.pi)
+    assert seen.pop("max_acceleration") == pytest.approx(2 * np.pi)
+    assert seen == {
+        "arm": "human", "method": "trajectory", "orientation": "none", "tracking": "soft", "seed": 7,
+        "backend": "vm",
+    }  # fmt: skip
+
+
+def test_a_solution_that_is_not_what_was_asked_for_ends_with_1(tmp_path, monkeypatch):
+    genuine = ak.solve
+
+    def worse(*arguments, **options):
+        solution = genuine(*arguments, **options)
+        return dataclasses.replace(solution, q=solution.q + 0.01)
+
+    monkeypatch.setattr(ak, "solve", worse)
+    result = run("solve", TASK, "--backend", "vm", "--out", tmp_path)
+    assert result.exit_code == 1
+    assert result.stdout.startswith("NOT ok")
+    assert "because         position error" in result.stdout
+    monkeypatch.setattr(ak, "task_names", lambda: ("drinking_reach",))
+    result = run("demo", "--backend", "vm", "--out", tmp_path)
+    assert result.exit_code == 1
+    assert "drinking_reach: position error" in result.stdout
+
+
+def test_emit_c_writes_a_library_and_names_it(tmp_path):
+    result = run("emit-c", "--arm", "ehmcs", "--out", tmp_path / "c", "--precision", "float")
+    assert result.exit_code == 0, result.stderr
+    assert "armik_ehmcs.c" in result.stdout
+    assert "float" in (tmp_path / "c" / "armik_ehmcs.h").read_text(encoding="ascii")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="sends SIGINT")
+def test_ctrl_c_ends_with_one_word_and_130(tmp_path):
+    code = (
+        "import armik_sym as ak, time\n"
+        "def wait(*a, **k): print('solving', flush=True); time.sleep(60)\n"
+        "ak.solve = wait\n"
+        "from armik_sym.cli import main\n"
+        "main()"
+    )
+    process = python("-c", code, "solve", TASK, "--out", tmp_path)
+    assert process.stdout.readline() == "solving\n"
+    time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=30)
+    assert (process.returncode, error) == (130, "stopped\n")

@@ -1,0 +1,466 @@
+"""The whole solve: exact, inside every limit, on time, quiet, and clear where it cannot be done."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+from compiled_helpers import entries, forgotten, needs_cc
+from sample_arms import ARMS, custom
+from smooth_motions import objective, path_of, smooth_angles, smooth_path, uneven_time
+
+import armik_sym as ak
+from armik_sym.arm import DHConvention
+from armik_sym.errors import LimitError, OptionError, ShapeError, SolverError, UnreachablePathError
+from armik_sym.motion.hand_path import HandPath
+from armik_sym.trajectory.options import TrajectoryOptions
+
+EHMCS = ARMS["ehmcs"]
+N = 25
+WEIGHTS = (
+    TrajectoryOptions.speed_weight,
+    TrajectoryOptions.acceleration_weight,
+    TrajectoryOptions.posture_weight,
+)
+
+
+def check(solution, *, position=1e-9, rotation=1e-9):
+    """What every exact solution promises, without any tolerance on limits."""
+    rom = solution.arm.rom
+    assert solution.ok, solution.reasons
+    assert np.all(solution.q >= rom.lower)
+    assert np.all(solution.q <= rom.upper)
+    assert solution.position_error.max() < position
+    assert solution.rotation_error.max() < rotation
+    return solution
+
+
+def no_worse_than(solution, q):
+    mine, other = (
+        objective(solution.time, motion, solution.arm.rom.middle, WEIGHTS) for motion in (solution.q, q)
+    )
+    assert mine <= 1.001 * other
+
+
+@pytest.fixture(scope="module")
+def reference():
+    """One exact full-pose solve that several tests compare with."""
+    path, q = smooth_path(EHMCS, N, seed=1)
+    return path, q, check(ak.solve(EHMCS, path))
+
+
+@pytest.fixture(scope="module")
+def free():
+    """One position-only solve: four joints' worth of freedom, so rate limits can bind and still hold."""
+    path, q = smooth_path(EHMCS, N, seed=2)
+    return HandPath(path.time, path.position), check(ak.solve(EHMCS, path, orientation="none"))
+
+
+@pytest.mark.parametrize("orientation", ["full", "pointing", "none"])
+@pytest.mark.parametrize(("name", "seed"), [("ehmcs", 1), ("human", 3), ("alfaiz", 2)])
+def test_every_arm_and_orientation_is_exact_inside_limits_and_no_worse_than_the_motion(
+    name, seed, orientation
+):
+    path, q = smooth_path(ARMS[name], N, seed)
+    solution = check(ak.solve(ARMS[name], path, orientation=orientation))
+    assert solution.orientation.value == orientation
+    no_worse_than(solution, q)
+
+
+@pytest.mark.parametrize("name", ak.task_names())
+def test_bundled_tasks(name):
+    task = ak.load_task(name)
+    solution = check(ak.solve(EHMCS, task.path))
+    assert np.all(solution.max_speed <= TrajectoryOptions.max_speed)
+    no_worse_than(solution, task.measured.q)
+
+
+@pytest.mark.parametrize("name", ["ehmcs_4dof", "ehmcs_5dof"])
+def test_shorter_arms_follow_positions(name):
+    path, q = smooth_path(ARMS[name], N, seed=1)
+    no_worse_than(check(ak.solve(ARMS[name], path, orientation="none")), q)
+
+
+def test_arm_with_sliding_joints_follows_positions():
+    arm = custom(DHConvention.STANDARD)
+    path, q = smooth_path(arm, N, seed=0)
+    no_worse_than(check(ak.solve(arm, path, orientation="none")), q)
+
+
+@pytest.mark.parametrize("orientation", ["full", "none"])
+def test_motion_that_touches_both_limits_of_every_joint(orientation):
+    q = smooth_angles(EHMCS, N, seed=1)
+    tight = EHMCS.with_rom(q.min(axis=0), q.max(axis=0))
+    solution = check(ak.solve(tight, path_of(EHMCS, q), orientation=orientation))
+    assert np.all(solution.rom_margin >= 0)
+    no_worse_than(solution, q)
+
+
+@pytest.mark.parametrize(
+    ("joints", "orientation"), [([2], "full"), ([5, 6], "full"), ([5, 6], "none"), ([0, 4], "none")]
+)
+def test_joints_locked_by_a_range_of_zero_width_stay_exactly_where_they_are(joints, orientation):
+    lower, upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()
+    lower[joints] = upper[joints] = EHMCS.rom.middle[joints] + 0.1
+    locked = EHMCS.with_rom(lower, upper)
+    path, _ = smooth_path(locked, N, seed=4)
+    solution = check(ak.solve(locked, path, orientation=orientation))
+    assert np.all(solution.q[:, joints] == lower[joints])
+    assert np.all(solution.rom_margin[joints] == 0)
+
+
+def test_time_stamps_are_respected():
+    q = smooth_angles(EHMCS, N, seed=1)
+    path = path_of(EHMCS, q, uneven_time(N, 0))
+    even = HandPath(np.linspace(0, 4, N), path.position, path.rotation)
+    uneven, regular = check(ak.solve(EHMCS, path)), check(ak.solve(EHMCS, even))
+    no_worse_than(uneven, q)
+    no_worse_than(uneven, regular.q)
+    assert np.abs(uneven.q - regular.q).max() > 1e-4
+
+
+def test_a_slower_clock_in_the_middle_lowers_the_speed_there_only(reference):
+    path, _, fast = reference
+    steps = np.diff(path.time)
+    steps[10:14] *= 8
+    slow = HandPath(np.concatenate([[0], np.cumsum(steps)]), path.position, path.rotation)
+    solution = check(ak.solve(EHMCS, slow))
+    speed, before = (
+        np.linalg.norm(np.diff(s.q, axis=0), axis=1) / np.diff(s.time) for s in (solution, fast)
+    )
+    assert speed[10:14].max() < before[10:14].max() / 4
+
+
+@pytest.mark.parametrize("name", ["max_speed", "max_acceleration"])
+def test_a_rate_limit_binds_and_holds_without_tolerance(free, name):
+    path, unlimited = free
+    limit = 0.9 * getattr(unlimited, name).max()
+    solution = check(ak.solve(EHMCS, path, **{name: limit}))
+    peak = getattr(solution, name).max()
+    assert peak <= limit
+    assert peak > 0.999 * limit
+    cost, best = (objective(path.time, s.q, EHMCS.rom.middle, WEIGHTS) for s in (solution, unlimited))
+    assert cost >= best * (1 - 1e-9)
+
+
+def test_limits_of_single_joints(free):
+    path, unlimited = free
+    joint = int(np.argmax(unlimited.max_speed))
+    limits = np.full(7, np.inf)
+    limits[joint] = 0.8 * unlimited.max_speed[joint]
+    solution = check(ak.solve(EHMCS, path, max_speed=limits))
+    assert 0.999 * limits[joint] < solution.max_speed[joint] <= limits[joint]
+
+
+def test_a_very_small_speed_limit_holds_as_exactly(free):
+    path, unlimited = free
+    slow = HandPath(path.time * 1e4, path.position)
+    limit = 0.9 * unlimited.max_speed.max() / 1e4
+    solution = check(ak.solve(EHMCS, slow, max_speed=limit))
+    assert 0.99 * limit < solution.max_speed.max() <= limit
+
+
+def test_a_start_on_the_path_is_kept(reference):
+    path, q, _ = reference
+    solution = check(ak.solve(EHMCS, path, start=q[0]))
+    assert np.abs(solution.q[0] - q[0]).max() < 1e-9
+
+
+@pytest.mark.parametrize("far", [False, True])
+def test_a_start_beside_the_path_leads_to_a_posture_on_it(reference, far):
+    path, q, _ = reference
+    start = EHMCS.rom.lower if far else q[0] + 0.02
+    solution = check(ak.solve(EHMCS, path, start=start, max_speed=None))
+    if not far:
+        assert np.abs(solution.q[0] - start).max() < 0.2
+
+
+@pytest.mark.parametrize("chosen", [[0, 12], [0, 8, 20]])
+def test_shortest_paths(reference, chosen):
+    path, q, _ = reference
+    short = HandPath(path.time[chosen], path.position[chosen], path.rotation[chosen])
+    solution = check(ak.solve(EHMCS, short))
+    assert solution.q.shape == (len(chosen), 7)
+
+
+@pytest.mark.parametrize("tracking", ["exact", "soft"])
+def test_same_seed_same_angles(reference, tracking):
+    path, _, solution = reference
+    first, second = (ak.solve(EHMCS, path, seed=5, tracking=tracking) for _ in range(2))
+    assert np.array_equal(first.q, second.q)
+    assert first.seed == 5
+
+
+@needs_cc
+def test_virtual_machine_and_compiled_code_agree(reference):
+    path, _, _ = reference
+    c, vm = (check(ak.solve(EHMCS, path, backend=backend)) for backend in ("c", "vm"))
+    assert np.abs(c.q - vm.q).max() < 1e-6
+
+
+@needs_cc
+def test_other_lengths_and_other_path_lengths_compile_nothing(tmp_path, monkeypatch):
+    monkeypatch.setenv("ARMIK_CACHE_DIR", str(tmp_path / "cache"))
+    (tmp_path / "cache").mkdir(mode=0o700)
+    arm = ARMS["ehmcs_4dof"]
+    with forgotten():
+        from armik_sym.compiled import stage_functions
+
+        stage_functions._program.cache_clear()
+        ak.compile(arm)
+        after_kinematics = entries(tmp_path / "cache")
+        path, _ = smooth_path(arm, 10, seed=1)
+        first = check(ak.solve(arm, path, orientation="none"))
+        kept = entries(tmp_path / "cache")
+        assert len(kept) > len(after_kinematics) > 0
+        # The kinematics were compiled before this call, the tracking equations in it.
+        assert 0 < first.timing.compile <= first.timing.total
+        other = arm.with_lengths(upper_arm=0.25, forearm=0.29)
+        longer, _ = smooth_path(other, 17, seed=1)
+        second = check(ak.solve(other, longer, orientation="none"))
+        assert second.timing.compile == 0
+        assert entries(tmp_path / "cache") == kept
+        stage_functions._program.cache_clear()
+
+
+def test_nothing_is_printed_unless_asked_for(capfd):
+    lower, upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()
+    lower[5:] = upper[5:] = 0.0
+    locked = EHMCS.with_rom(lower, upper)
+    path, _ = smooth_path(locked, 8, seed=1)
+    ak.solve(locked, path)  # fewer free variables than equations: CasADi would warn
+    far = HandPath([0.0, 1.0], [[1.0, 0, 0], [1.1, 0, 0]])
+    with pytest.raises(UnreachablePathError):
+        ak.solve(EHMCS, far)
+    ak.solve(EHMCS, far, tracking="soft")
+    with pytest.raises(SolverError):
+        ak.solve(EHMCS, smooth_path(EHMCS, 8, seed=1)[0], max_iterations=1)
+    assert capfd.readouterr() == ("", "")
+    ak.solve(locked, path, ipopt_output=True)
+    assert "Number of Iterations" in capfd.readouterr().out
+
+
+# --- soft tracking ---------------------------------------------------------------------------------
+
+
+def test_soft_tracking_stretches_towards_what_it_cannot_reach():
+    direction = np.array([0.0, 0.6, 0.8])
+    shoulder = np.array([0.0, 0.0, 0.143])
+    reach = np.linspace(0.5, 0.8, N)[:, None]
+    path = HandPath(np.linspace(0, 4, N), shoulder + reach * direction)
+    solution = ak.solve(EHMCS, path, tracking="soft")
+    longest = EHMCS.lengths["upper_arm"] + EHMCS.lengths["forearm"]
+    out = reach[:, 0] - longest
+    assert np.all(solution.q >= EHMCS.rom.lower)
+    assert np.all(solution.q <= EHMCS.rom.upper)
+    far, near = out > 0.03, out < -0.05
+    assert solution.position_error[near].max() < 2e-3
+    np.testing.assert_allclose(solution.position_error[far], out[far], atol=5e-3)
+    assert np.all(solution.position_error[out > 0] >= out[out > 0] - 1e-9)
+    assert not solution.ok
+    assert "position error" in solution.reasons[0]
+    assert ak.solve(EHMCS, path, tracking="soft", position_tolerance=0.2).ok
+
+
+def test_soft_tracking_smooths_noise():
+    clean, q = smooth_path(EHMCS, 60, seed=1)
+    noise = np.random.default_rng(0).normal(0, 2e-3, clean.position.shape)
+    noisy = HandPath(clean.time, clean.position + noise)
+    soft = ak.solve(EHMCS, noisy, tracking="soft", position_sigma=0.01, start=q[0])
+    follows = np.linalg.norm(soft.arm_position() - clean.position, axis=1) if hasattr(soft, "arm_position") else (
+        ak.solution.tracking_error.tracking_errors(EHMCS, soft.q, clean.position, None, soft.orientation)[0]
+    )
+    assert soft.ok
+    assert np.sqrt(np.mean(follows**2)) < 0.8 * np.sqrt(np.mean(np.sum(noise**2, axis=1)))
+    exact = ak.solve(EHMCS, noisy, start=q[0])
+    assert soft.max_acceleration.max() < 0.5 * exact.max_acceleration.max()
+
+
+def test_soft_tracking_with_tiny_sigmas_approaches_exact(reference):
+    path, _, exact = reference
+    errors, distances = [], []
+    for sigma in (1e-2, 1e-4):
+        soft = ak.solve(EHMCS, path, tracking="soft", position_sigma=sigma, rotation_sigma=sigma)
+        errors.append(soft.position_error.max())
+        distances.append(np.abs(soft.q - exact.q).max())
+    assert errors[1] < 1e-6
+    assert errors[1] < errors[0] / 100
+    assert distances[1] < 1e-3
+
+
+def test_soft_tracking_keeps_rate_limits(free):
+    path, unlimited = free
+    limit = 0.5 * unlimited.max_speed.max()
+    solution = ak.solve(EHMCS, path, tracking="soft", max_speed=limit)
+    assert solution.max_speed.max() <= limit
+    assert solution.max_speed.max() > 0.99 * limit
+
+
+# --- what cannot be done ---------------------------------------------------------------------------
+
+
+def test_out_of_reach_names_samples_and_shortfall():
+    shoulder = np.array([0.0, 0.0, 0.143])
+    direction = np.array([0.0, 0.6, 0.8])
+    far = np.array([0.70, 0.75, 0.80])
+    with pytest.raises(UnreachablePathError) as caught:
+        ak.solve(EHMCS, HandPath([0.0, 1.0, 2.0], shoulder + far[:, None] * direction))
+    error = caught.value
+    assert error.samples.tolist() == [0, 1, 2]
+    longest = EHMCS.lengths["upper_arm"] + EHMCS.lengths["forearm"]
+    np.testing.assert_allclose(error.shortfall, far - longest, atol=1e-3)
+    assert f"sample 0 by {1000 * error.shortfall[0]:.3g} mm" in str(error)
+    assert 'tracking="soft"' in str(error)
+    assert "3 of 3 samples" in str(error)
+
+
+def test_only_the_samples_out_of_reach_are_named():
+    shoulder = np.array([0.0, 0.0, 0.143])
+    direction = np.array([0.0, 0.6, 0.8])
+    longest = EHMCS.lengths["upper_arm"] + EHMCS.lengths["forearm"]
+    distance = longest + np.array([-0.2, -0.1, -0.02, 0.02, 0.05, 0.03, -0.01, -0.05, 0.01, -0.1])
+    with pytest.raises(UnreachablePathError) as caught:
+        ak.solve(EHMCS, HandPath(np.arange(10.0), shoulder + distance[:, None] * direction))
+    assert caught.value.samples.tolist() == [3, 4, 5, 8]
+    np.testing.assert_allclose(caught.value.shortfall, [0.02, 0.05, 0.03, 0.01], atol=1e-3)
+
+
+def test_an_orientation_out_of_reach_is_told_in_degrees():
+    path, _ = smooth_path(EHMCS, 6, seed=1)
+    locked_lower, locked_upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()
+    locked_lower[4:] = locked_upper[4:] = EHMCS.rom.lower[4:]
+    locked = EHMCS.with_rom(locked_lower, locked_upper)
+    with pytest.raises(UnreachablePathError, match=r"mm and .*°") as caught:
+        ak.solve(locked, path)
+    assert np.all(caught.value.turn + caught.value.shortfall > 1e-3)
+
+
+def test_hand_faster_than_the_joints_allow():
+    path = HandPath([0.0, 1.0, 1.01, 2.0], [[0, 0.1, 0.5], [0, 0.1, 0.5], [0, 0.4, 0.5], [0, 0.4, 0.5]])
+    with pytest.raises(LimitError, match=r"between samples 1 and 2 the hand moves at 30 m/s.*max_speed"):
+        ak.solve(EHMCS, path, max_speed=1.0)
+
+
+@pytest.mark.parametrize("name", ["max_speed", "max_acceleration"])
+def test_a_rate_limit_that_contradicts_the_path_names_a_joint(name):
+    # Four joints and three coordinates, far from singular: nothing to give way.
+    arm = ARMS["ehmcs_4dof"]
+    path, q = smooth_path(arm, 15, seed=1)
+    limit = 0.05 * getattr(ak.solve(arm, path, orientation="none"), name).max()
+    with pytest.raises(LimitError) as caught:
+        ak.solve(arm, path, orientation="none", **{name: limit, "max_iterations": 60})
+    text = str(caught.value)
+    assert name in text
+    assert any(joint in text for joint in arm.joint_names) or "between samples" in text
+    assert "slow the path down" in text
+
+
+def test_more_equations_than_joints_is_told_before_anything_runs():
+    path, _ = smooth_path(ARMS["ehmcs_5dof"], 6, seed=1)
+    with pytest.raises(OptionError, match=r"6 equations.*5 joints.*'pointing' or 'none'.*tracking=\"soft\""):
+        ak.solve(ARMS["ehmcs_5dof"], path)
+    soft = ak.solve(ARMS["ehmcs_5dof"], path, tracking="soft", position_sigma=1e-4, rotation_sigma=1e-4)
+    assert soft.position_error.max() < 1e-5
+
+
+def test_too_few_iterations_is_a_solver_error_with_the_solvers_word():
+    path, _ = smooth_path(EHMCS, 8, seed=1)
+    with pytest.raises(SolverError, match=r"no attempt converged.*soft") as caught:
+        ak.solve(EHMCS, path, max_iterations=1)
+    assert caught.value.status == "Maximum_Iterations_Exceeded"
+
+
+def test_a_wrong_start_is_refused_before_anything_is_compiled(monkeypatch):
+    path, q = smooth_path(EHMCS, 4, seed=1)
+    monkeypatch.setattr("armik_sym.trajectory.solve_trajectory.compile", None)
+    with pytest.raises(ShapeError, match="start"):
+        ak.solve(EHMCS, path, start=q)
+
+
+# --- progress and interruption ---------------------------------------------------------------------
+
+
+def test_progress_tells_stages_and_iterations(free):
+    path, unlimited = free
+    seen: list[ak.Progress] = []
+    limit = 0.9 * unlimited.max_speed.max()
+    solution = ak.solve(EHMCS, path, max_speed=limit, progress=seen.append)
+    stages = list(dict.fromkeys(report.stage for report in seen))
+    assert stages == ["first guess", "exact tracking", "speed and acceleration limits"]
+    counted = [report.iteration for report in seen if report.stage == "exact tracking"]
+    assert counted == list(range(len(counted)))
+    limited = [report.violation for report in seen if report.stage == stages[-1]]
+    assert limited[0] > 1e-3
+    assert limited[-1] < 1e-6
+    assert solution.iterations == len(seen) - 3
+
+
+class StopError(Exception):
+    pass
+
+
+@pytest.mark.parametrize("kind", [StopError, KeyboardInterrupt])
+@pytest.mark.parametrize("stage", ["first guess", "exact tracking"])
+def test_an_exception_in_the_callback_comes_out_and_the_handler_is_restored(reference, kind, stage):
+    path = reference[0]
+    handler = signal.getsignal(signal.SIGINT)
+    calls = []
+
+    def stop(report):
+        calls.append(report)
+        if report.stage == stage and (report.iteration == 2 or stage == "first guess"):
+            raise kind("enough")
+
+    with pytest.raises(kind, match="enough"):
+        ak.solve(EHMCS, path, progress=stop)
+    assert calls[-1].stage == stage
+    assert signal.getsignal(signal.SIGINT) is handler
+    check(ak.solve(EHMCS, path))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="os.kill sends no SIGINT to a thread of this process")
+@pytest.mark.parametrize("stage", ["first guess", "exact tracking"])
+def test_ctrl_c_ends_a_long_solve_soon(stage):
+    path, _ = smooth_path(EHMCS, 1200, seed=1)
+    handler = signal.getsignal(signal.SIGINT)
+    reached, interrupted_at = threading.Event(), []
+
+    def press():
+        assert reached.wait(60)
+        interrupted_at.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    def note(report):
+        if report.stage == stage:
+            reached.set()
+
+    thread = threading.Thread(target=press)
+    thread.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            ak.solve(EHMCS, path, progress=note)
+    finally:
+        reached.set()
+        thread.join()
+    assert time.monotonic() - interrupted_at[0] < 5
+    assert signal.getsignal(signal.SIGINT) is handler
+
+
+def test_solving_in_other_threads(reference):
+    path, _, expected = reference
+    found = [None, None]
+
+    def work(i):
+        found[i] = ak.solve(EHMCS, path)
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for solution in found:
+        assert np.array_equal(check(solution).q, expected.q)
