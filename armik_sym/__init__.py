@@ -4,25 +4,32 @@ Give it a hand path and an arm; get back the whole joint trajectory, inside the 
 the kinematics as C code.
 """
 
-from armik_sym import symbolic
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from armik_sym._version import __version__
-from armik_sym.arm import (
-    Arm,
-    DHChain,
-    DHConvention,
-    DHLink,
-    JointType,
-    RangeOfMotion,
-    catalog,
-    load_arm,
-    segment_lengths,
-)
-from armik_sym.compiled import Kinematics, compile, emit_c
-from armik_sym.errors import ArmikError
-from armik_sym.motion import HandPath, load_task, read_path, task_names, write_path
-from armik_sym.progress import Progress
-from armik_sym.solution import Solution
-from armik_sym.solving import methods, solve
+
+if TYPE_CHECKING:
+    from armik_sym import symbolic
+    from armik_sym.arm import (
+        Arm,
+        DHChain,
+        DHConvention,
+        DHLink,
+        JointType,
+        RangeOfMotion,
+        catalog,
+        load_arm,
+        segment_lengths,
+    )
+    from armik_sym.compiled import Kinematics, compile, emit_c
+    from armik_sym.errors import ArmikError
+    from armik_sym.motion import HandPath, load_task, read_path, task_names, write_path
+    from armik_sym.progress import Progress
+    from armik_sym.solution import Solution
+    from armik_sym.solving import methods, solve
 
 __all__ = [
     "Arm",
@@ -50,3 +57,33 @@ __all__ = [
     "task_names",
     "write_path",
 ]
+
+# Where each public name lives. Loaded when first used: the command line answers --help, and reports a
+# broken CasADi, without importing CasADi.
+_HOMES = {
+    "armik_sym.arm": (
+        "Arm", "DHChain", "DHConvention", "DHLink", "JointType", "RangeOfMotion", "catalog", "load_arm",
+        "segment_lengths",
+    ),
+    "armik_sym.compiled": ("Kinematics", "compile", "emit_c"),
+    "armik_sym.errors": ("ArmikError",),
+    "armik_sym.motion": ("HandPath", "load_task", "read_path", "task_names", "write_path"),
+    "armik_sym.progress": ("Progress",),
+    "armik_sym.solution": ("Solution",),
+    "armik_sym.solving": ("methods", "solve"),
+}  # fmt: skip
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "symbolic":
+        return importlib.import_module("armik_sym.symbolic")
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'armik_sym' has no attribute {name!r}")
+    value = getattr(importlib.import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

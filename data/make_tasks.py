@@ -164,6 +164,7 @@ def table(recipe: Recipe, what: str, header: Sequence[str], rows: list[list[str]
     """The text of one file."""
     lines = [
         f"# {recipe.title}: {what}",
+        "# note: Synthetic data: made to resemble Nguyen 2021, not recorded from a person",
         "# SYNTHETIC: made by data/make_tasks.py, not measured; the recordings of Nguyen 2021 were never "
         "published.",
         f"# Arm ehmcs, {recipe.rate_hz} Hz; minimum-jerk profiles read by assumed sensors: encoders on q1, "

@@ -50,21 +50,21 @@ def architecture() -> Figure:
     return figure
 
 
-def drinking_lift() -> Figure:
-    """The solved lifting task (synthetic motion)."""
+def playing_ball() -> Figure:
+    """The solved ball game (synthetic motion)."""
     import armik_sym as ak
     from armik_sym.report.solution_figure import solution_figure
 
-    task = ak.load_task("drinking_lift")
+    task = ak.load_task("playing_ball")
     solution = ak.solve(ak.catalog.ehmcs(), task.path, start=task.measured.q[0])
-    return solution_figure(solution, measured=task.measured, note="synthetic motion")
+    return solution_figure(solution, measured=task.measured)
 
 
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
     architecture().savefig(IMAGES / "architecture.png", dpi=130)
-    drinking_lift().savefig(IMAGES / "drinking_lift.png", dpi=110)
+    playing_ball().savefig(IMAGES / "playing_ball.png", dpi=110)
 
 
 if __name__ == "__main__":

@@ -65,7 +65,7 @@ def test_solve_says_what_is_wrong(tmp_path, monkeypatch, arguments, words):
 def test_a_path_out_of_reach_names_samples_and_distance(tmp_path):
     path = ak.read_path(TASK)
     far = tmp_path / "far.csv"
-    ak.write_path(far, ak.HandPath(path.time, 1.5 * path.position, path.rotation))
+    ak.write_path(far, ak.HandPath(path.time[::14], 1.5 * path.position[::14], path.rotation[::14]))
     said = failure("solve", far, "--backend", "vm", "--out", tmp_path / "out")
     assert "cannot be reached" in said
     assert "mm" in said

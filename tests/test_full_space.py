@@ -60,7 +60,9 @@ def test_derivatives_equal_finite_differences(orientation, soft, rates):
 
     value, gradient = problem.gradient(x, [])
     assert float(value) == pytest.approx(f(x), rel=1e-14)
-    np.testing.assert_allclose(np.asarray(gradient).ravel(), central(f, x, h=1e-2), rtol=1e-6, atol=1e-5)  # quadratic
+    np.testing.assert_allclose(
+        np.asarray(gradient).ravel(), central(f, x, h=1e-2), rtol=1e-6, atol=1e-5
+    )  # quadratic
 
     value, jacobian = problem.jacobian(x, [])
     np.testing.assert_allclose(np.asarray(value).ravel(), g(x), rtol=1e-14)
@@ -84,9 +86,7 @@ def test_the_objective_is_the_stated_integral(soft):
     x = random_point(task, soft)
     o, size = task.options, N * task.arm.dof
     q, middle = x[:size].reshape(N, -1), task.arm.rom.middle
-    expected = objective(
-        task.path.time, q, middle, (o.speed_weight, o.acceleration_weight, o.posture_weight)
-    )
+    expected = objective(task.path.time, q, middle, (o.speed_weight, o.acceleration_weight, o.posture_weight))
     # The constant ½ w_p |middle|² T does not depend on x and is left out of the problem.
     expected -= 0.5 * o.posture_weight * task.path.duration * middle @ middle
     if soft:

@@ -74,8 +74,8 @@ class Arm:
         for link, lower, upper in zip(self.chain.moving_links, self.rom.lower, self.rom.upper, strict=True):
             if link.joint is JointType.REVOLUTE and max(abs(lower), abs(upper)) > _LARGEST_ANGLE:
                 raise UnitError(
-                    f"arm {self.name!r}: range of motion of {link.name!r} is {lower:g} to {upper:g} rad, more "
-                    "than two full turns: if these are degrees, use RangeOfMotion.from_degrees or np.deg2rad"
+                    f"arm {self.name!r}: range of motion of {link.name!r} is {lower:g} to {upper:g} rad, "
+                    "more than two turns: if these are degrees, use RangeOfMotion.from_degrees or np.deg2rad"
                 )
 
     def _check_lengths(self) -> None:

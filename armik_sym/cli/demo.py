@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from armik_sym.motion.tasks import Task
     from armik_sym.solution import Solution
 
-_NOTE = "Synthetic data: made to resemble Nguyen 2021, not recorded from a person"
 _ABOUT = (
     "The data are synthetic: paths and 'measured' joint angles resemble the five tasks of Nguyen 2021, whose "
     "recordings were never published. Each task is solved from its first measured posture; two joint "
@@ -56,7 +55,6 @@ def demo(
                 data_formats=(".csv",),
                 measured=task.measured,
                 title=task.title,
-                note=_NOTE,
             )
             solved.append((task, solution))
             progress.finish()

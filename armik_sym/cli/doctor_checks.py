@@ -6,32 +6,12 @@ import functools
 import platform
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from importlib import metadata
-from typing import Literal
 
 from armik_sym._version import __version__
-
-_REINSTALL = "install it again: pip install --force-reinstall armik_sym"
-
-
-@dataclass(frozen=True)
-class Finding:
-    """What a check found.
-
-    Attributes:
-        what: What was looked for.
-        state: "found", "missing", or "broken" if it is there but does not work.
-        detail: Version, place, or what is wrong.
-        remedy: How to get or mend it; empty if nothing is wrong.
-        essential: True if nothing can be solved without it.
-    """
-
-    what: str
-    state: Literal["found", "missing", "broken"]
-    detail: str
-    remedy: str = ""
-    essential: bool = False
+from armik_sym.cli.doctor_compiled import check_cache, check_compiler
+from armik_sym.cli.doctor_solver import check_data, check_ipopt
+from armik_sym.cli.finding import Finding
 
 
 Check = Callable[[], Finding]
@@ -46,9 +26,6 @@ def all_checks() -> list[Check]:
     Source:
         None (command line).
     """
-    from armik_sym.cli.doctor_compiled import check_cache, check_compiler
-    from armik_sym.cli.doctor_solver import check_data, check_ipopt
-
     optional = {"matplotlib": "figures", "control": "servo simulation", "pyserial": "the recording device"}
     return [
         _python,
@@ -77,19 +54,3 @@ def _package(name: str, use: str, *, essential: bool) -> Finding:
     except metadata.PackageNotFoundError:
         return Finding(name, "missing", f"needed for {use}", f"pip install {name}", essential)
     return Finding(name, "found", version, essential=essential)
-
-
-def reinstall(what: str, detail: str) -> Finding:
-    """A finding that something essential of the package itself is not right.
-
-    Args:
-        what: What was looked for.
-        detail: What is wrong.
-
-    Returns:
-        The finding.
-
-    Source:
-        None (command line).
-    """
-    return Finding(what, "broken", detail, _REINSTALL, essential=True)

@@ -9,7 +9,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from armik_sym.cli.doctor_checks import Finding
+from armik_sym.cli.finding import Finding
 
 _SOURCE = """#if defined(_WIN32)
 __declspec(dllexport)

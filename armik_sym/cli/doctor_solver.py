@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 
-from armik_sym.cli.doctor_checks import Finding, reinstall
+from armik_sym.cli.finding import Finding, reinstall
 
 # In a process of its own: a solver library that does not fit the machine ends the process it is in.
 _TINY_SOLVE = """

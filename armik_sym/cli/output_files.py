@@ -44,7 +44,6 @@ def write_results(
     data_formats: tuple[str, ...],
     measured: JointMotion | None = None,
     title: str | None = None,
-    note: str | None = None,
 ) -> list[Path]:
     """Write a solution as data files and figures.
 
@@ -55,7 +54,6 @@ def write_results(
         data_formats: Endings of the data files, for example ".csv".
         measured: Measured motion to draw beside it, or None.
         title: What the motion is, for the figures.
-        note: Where the data come from, for the figures.
 
     Returns:
         The files written: `<stem>_solution.<ending>`, `<stem>_joints.png`, `<stem>_hand.png`.
@@ -69,8 +67,8 @@ def write_results(
     from armik_sym.report import hand_path_figure, save_figure, solution_figure
 
     written = [solution.save(folder / f"{stem}_solution{ending}") for ending in data_formats]
-    joints = solution_figure(solution, measured, title=title, note=note)
+    joints = solution_figure(solution, measured, title=title)
     written.append(save_figure(joints, folder / f"{stem}_joints.png"))
-    hand = hand_path_figure(solution, title=title, note=note)
+    hand = hand_path_figure(solution, title=title)
     written.append(save_figure(hand, folder / f"{stem}_hand.png"))
     return written

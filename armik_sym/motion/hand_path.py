@@ -32,6 +32,7 @@ class HandPath:
         position: Origin of the hand frame, shape (n, 3), in [m]; read-only.
         rotation: R_base_hand, shape (n, 3, 3), or None if only the position matters; read-only.
             Matrices are accepted within 1e-6 and replaced by the nearest rotation.
+        note: Where the path comes from, one line; goes along into files and figures.
 
     Raises:
         ShapeError: If shapes do not fit, or there are fewer than two samples.
@@ -45,6 +46,7 @@ class HandPath:
     time: Array
     position: Array
     rotation: Array | None = None
+    note: str = ""
 
     def __post_init__(self) -> None:
         checked = checked_path(self.time, self.position, self.rotation)
@@ -52,13 +54,16 @@ class HandPath:
             object.__setattr__(self, key, values)
 
     @classmethod
-    def from_quaternions(cls, time: ArrayLike, position: ArrayLike, quaternion_wxyz: ArrayLike) -> HandPath:
+    def from_quaternions(
+        cls, time: ArrayLike, position: ArrayLike, quaternion_wxyz: ArrayLike, note: str = ""
+    ) -> HandPath:
         """Build a path from unit quaternions, scalar first.
 
         Args:
             time: Times, shape (n,), in [s].
             position: Positions, shape (n, 3), in [m].
             quaternion_wxyz: Quaternions (w, x, y, z) with |q| = 1 to 1e-3, normalised here, shape (n, 4).
+            note: Where the path comes from.
 
         Returns:
             The path.
@@ -75,7 +80,7 @@ class HandPath:
         q = float_copy(quaternion_wxyz, "quaternion")
         check_shape(q, "quaternion", (len(np.atleast_1d(t)), 4), f"({len(np.atleast_1d(t))}, 4)")
         check_finite(q, "quaternion")
-        return cls(t, float_copy(position, "position"), quaternions_to_rotations(q))
+        return cls(t, float_copy(position, "position"), quaternions_to_rotations(q), note)
 
     @property
     def n(self) -> int:

@@ -34,7 +34,7 @@ def read_path(path: str | os.PathLike[str]) -> HandPath:
 
     Columns in any order: `time [s],x [mm],y [mm],z [mm]`, then for the rotation a unit quaternion
     `qw,qx,qy,qz` (scalar first), or the matrix `r11,r12,…,r33` (row by row), or nothing. Units: s, ms;
-    m, cm, mm. Lines starting with '#' are comments.
+    m, cm, mm. Lines starting with '#' are comments; "# note: …" says where the path comes from.
 
     Args:
         path: The file.
@@ -64,7 +64,7 @@ def read_path(path: str | os.PathLike[str]) -> HandPath:
             rotation = quaternions_to_rotations(block(_QUATERNION), table.place)
         elif "r11" in names:
             rotation = block(_MATRIX).reshape(-1, 3, 3)
-        return HandPath(*checked_path(time, position, rotation, table.place))
+        return HandPath(*checked_path(time, position, rotation, table.place), note=table.note)
     except (HandPathError, UnitError, ShapeError) as error:
         raise type(error)(f"{table.path}: {error}") from None
 
@@ -77,7 +77,7 @@ def write_path(path: str | os.PathLike[str], hand_path: HandPath, comment: str |
     Args:
         path: The file; its folder must exist.
         hand_path: The path.
-        comment: Text for the first lines, or None.
+        comment: Text for the first lines, or None; the path's note follows.
 
     Raises:
         MotionFileError: If the file cannot be written.
@@ -90,7 +90,8 @@ def write_path(path: str | os.PathLike[str], hand_path: HandPath, comment: str |
     if hand_path.rotation is not None:
         columns |= dict.fromkeys(_QUATERNION, ("-", NO_UNITS["-"]))
         values.append(rotations_to_quaternions(hand_path.rotation))
-    write_table(Path(path), columns, np.column_stack(values), comment)
+    note = f"note: {hand_path.note}" if hand_path.note else ""
+    write_table(Path(path), columns, np.column_stack(values), "\n".join(filter(None, (comment, note))))
 
 
 def _check_columns(table: UnitTable) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from armik_sym.motion.text_file import read_lines, write_lines
 from armik_sym.motion.units import Unit, from_si, is_number, to_si
 
 _COMMENT = "#"
+_NOTE = "note:"
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class UnitTable:
         header_line: Line number of the header, from 1.
         lines: Line number of every sample, from 1.
         rows: Cells of every sample.
+        note: Where the data come from: what a comment line "# note: …" says, else empty.
 
     Source:
         RFC 4180 (comma-separated values).
@@ -37,6 +39,7 @@ class UnitTable:
     header_line: int
     lines: tuple[int, ...]
     rows: tuple[tuple[str, ...], ...]
+    note: str = ""
 
     def place(self, index: int) -> str:
         """Words for where a sample is: "line 12 (sample 3)".
@@ -91,11 +94,8 @@ def read_table(path: Path) -> UnitTable:
     Source:
         RFC 4180 (comma-separated values).
     """
-    content = [
-        (number, line)
-        for number, line in enumerate(read_lines(path), 1)
-        if line.strip() and not line.lstrip().startswith(_COMMENT)
-    ]
+    numbered = [(number, line) for number, line in enumerate(read_lines(path), 1) if line.strip()]
+    content = [(number, line) for number, line in numbered if not line.lstrip().startswith(_COMMENT)]
     if not content:
         raise MotionFileError(f"{path}: only comments, expected a header row such as 'time [s],x [mm],…'")
     (header_line, heading), body = content[0], content[1:]
@@ -107,7 +107,9 @@ def read_table(path: Path) -> UnitTable:
         if len(rows[i]) != len(columns):
             last = i == len(body) - 1
             raise MotionFileError(f"{path}: line {number} {_miscount(len(rows[i]), len(columns), last)}")
-    return UnitTable(path, columns, header_line, tuple(number for number, _ in body), tuple(rows))
+    return UnitTable(
+        path, columns, header_line, tuple(number for number, _ in body), tuple(rows), _note(numbered)
+    )
 
 
 def write_table(
@@ -135,6 +137,12 @@ def write_table(
     units = [unit for _, unit in columns.values()]
     lines += [",".join(map(from_si, row, units)) for row in values.tolist()]
     write_lines(path, lines)
+
+
+def _note(numbered: list[tuple[int, str]]) -> str:
+    comments = (line.strip().lstrip(_COMMENT).strip() for _, line in numbered if line.lstrip()[0] == _COMMENT)
+    notes = (text[len(_NOTE) :].strip() for text in comments if text.lower().startswith(_NOTE))
+    return next(notes, "")
 
 
 def _miscount(have: int, want: int, last: bool) -> str:

@@ -59,7 +59,7 @@ def hand_path_figure(solution: Solution, *, title: str | None = None, note: str 
     Args:
         solution: The solution.
         title: What the motion is; None for "Path of the hand".
-        note: Where the data come from, for example "synthetic data"; written below the title.
+        note: Where the data come from, written below the title; None takes the note of the path.
 
     Returns:
         A figure with equal axes, in [mm], origin at the base of the arm.
@@ -75,6 +75,7 @@ def hand_path_figure(solution: Solution, *, title: str | None = None, note: str 
     if _misses(solution):
         key += " Dashed: the path asked for."
     facts = f"arm {arm.name}, {solution.path.duration:.1f} s. Verdict: {'ok' if solution.ok else 'NOT ok'}"
+    note = solution.path.note if note is None else note
     lines = [note, key] if note else [key]
     figure, grid = new_figure(f"{title or 'Path of the hand'}: {facts}", lines, 1, 2, _PANEL)
     for column, view in enumerate(_views(arm)):

@@ -32,7 +32,7 @@ def solution_figure(
         solution: The solution.
         measured: Joint angles to compare with; joints are matched by name.
         title: What the motion is; None leaves arm, method and verdict as the title.
-        note: Where the data come from, for example "synthetic data"; written below the title.
+        note: Where the data come from, written below the title; None takes the note of the path.
 
     Returns:
         A figure; angles in [deg], errors in [mm] and [deg] (or finer), speed in [deg/s], time in [s].
@@ -43,6 +43,7 @@ def solution_figure(
     arm = solution.arm
     rows = -(-(arm.dof + 1) // _COLUMNS)
     reasons = textwrap.shorten("; ".join(solution.reasons), _REASONS_WIDTH, placeholder=" …")
+    note = solution.path.note if note is None else note
     lines = [line for line in (note, reasons) if line]
     figure, grid = new_figure(_title(solution, title), lines, rows + 1, _COLUMNS, _PANEL)
     for i in range(arm.dof):

@@ -40,7 +40,8 @@ def save(solution: Solution, path: Path) -> Path:
             f"{path}: cannot write {path.suffix or 'a file without ending'!r}: valid are .csv, .npz"
         )
     try:
-        writer(solution, path)
+        with np.errstate(invalid="ignore"):  # angles that are not finite are saved as such
+            writer(solution, path)
     except OSError as error:
         raise MotionFileError(f"{path}: cannot be written: {error.strerror}") from error
     return path
@@ -49,6 +50,7 @@ def save(solution: Solution, path: Path) -> Path:
 def _record(solution: Solution) -> dict[str, object]:
     return {
         "program": f"armik_sym {__version__}",
+        "note": solution.path.note,
         "arm": solution.arm.name,
         "lengths_m": dict(solution.arm.lengths),
         "method": solution.method,

@@ -22,7 +22,11 @@ def summary(solution: Solution) -> str:
     Source:
         None (reporting).
     """
-    s = solution
+    with np.errstate(invalid="ignore"):  # angles that are not finite are told, not stumbled over
+        return "\n".join(_lines(solution))
+
+
+def _lines(s: Solution) -> list[str]:
     tightest, widest = int(np.argmin(s.rom_margin)), int(np.argmax(s.max_step))
     names = s.arm.joint_names
     verdict = "ok" if s.ok else "NOT ok"
@@ -40,4 +44,4 @@ def summary(solution: Solution) -> str:
         f"compile {s.timing.compile:.2g} s, solve {s.timing.solve:.2g} s",
     ]
     lines += [f"  because         {reason}" for reason in s.reasons]
-    return "\n".join(lines)
+    return lines
