@@ -267,14 +267,14 @@ def test_soft_tracking_stretches_towards_what_it_cannot_reach():
 
 
 def test_soft_tracking_smooths_noise():
-    clean, q = smooth_path(EHMCS, 60, seed=1)
+    clean, _ = smooth_path(EHMCS, 60, seed=1)
     noise = np.random.default_rng(0).normal(0, 2e-3, clean.position.shape)
     noisy = HandPath(clean.time, clean.position + noise)
-    soft = ak.solve(EHMCS, noisy, tracking="soft", position_sigma=4e-3, start=q[0])
+    soft = ak.solve(EHMCS, noisy, tracking="soft", position_sigma=4e-3, speed_weight=0.1)
     assert soft.ok, soft.reasons
     follows = np.linalg.norm(hand_pose(EHMCS.chain, soft.q, EHMCS.lengths)[0] - clean.position, axis=1)
-    assert np.sqrt(np.mean(follows**2)) < 0.8 * np.sqrt(np.mean(np.sum(noise**2, axis=1)))
-    exact = ak.solve(EHMCS, noisy, start=q[0])
+    assert np.sqrt(np.mean(follows**2)) < 0.9 * np.sqrt(np.mean(np.sum(noise**2, axis=1)))
+    exact = ak.solve(EHMCS, noisy)
     assert soft.max_acceleration.max() < 0.5 * exact.max_acceleration.max()
 
 

@@ -13,7 +13,6 @@ from armik_sym.cli.doctor_compiled import check_cache, check_compiler
 from armik_sym.cli.doctor_solver import check_data, check_ipopt
 from armik_sym.cli.finding import Finding
 
-
 Check = Callable[[], Finding]
 
 

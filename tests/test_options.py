@@ -1,0 +1,110 @@
+"""Options: refused where they make no sense, with the name, the value and what is valid."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from sample_arms import ARMS
+from smooth_motions import path_of, smooth_angles
+
+from armik_sym.errors import LimitError, OptionError
+from armik_sym.symbolic import Orientation
+from armik_sym.trajectory.options import TrajectoryOptions, rate_limit
+
+ARM = ARMS["human"]
+WEIGHTS = ("speed_weight", "acceleration_weight", "posture_weight")
+POSITIVE = ("position_sigma", "rotation_sigma", "max_iterations", "position_tolerance", "rotation_tolerance")
+
+
+@pytest.mark.parametrize("name", WEIGHTS + POSITIVE)
+@pytest.mark.parametrize("value", [-1, math.nan, math.inf, "1", True, [1.0], 1j])
+def test_numbers_that_make_no_sense(name, value):
+    with pytest.raises(OptionError, match=rf"{name} is .*expected a finite number") as caught:
+        TrajectoryOptions(**{name: value})
+    assert repr(value) in str(caught.value)
+
+
+@pytest.mark.parametrize("name", POSITIVE)
+def test_zero_is_refused_where_it_divides(name):
+    with pytest.raises(OptionError, match=f"{name} is 0, expected a finite number > 0"):
+        TrajectoryOptions(**{name: 0})
+
+
+@pytest.mark.parametrize("name", WEIGHTS)
+def test_zero_weights_are_fine(name):
+    assert getattr(TrajectoryOptions(**{name: 0}), name) == 0
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64, np.int64, int])
+def test_numpy_numbers_are_numbers(kind):
+    for name in WEIGHTS + POSITIVE:
+        assert getattr(TrajectoryOptions(**{name: kind(2)}), name) == 2
+
+
+def test_iterations_are_whole():
+    with pytest.raises(OptionError, match=r"max_iterations is 2\.5, expected a whole number"):
+        TrajectoryOptions(max_iterations=2.5)
+
+
+@pytest.mark.parametrize("value", ["Exact", "", None, True])
+def test_tracking_lists_the_valid_words(value):
+    with pytest.raises(OptionError, match="valid are exact, soft"):
+        TrajectoryOptions(tracking=value)
+
+
+def test_orientation_follows_the_path_unless_said():
+    turned = path_of(ARM, smooth_angles(ARM, 3, 0))
+    straight = path_of(ARM, smooth_angles(ARM, 3, 0), turned=False)
+    assert TrajectoryOptions().orientation_for(turned) is Orientation.FULL
+    assert TrajectoryOptions().orientation_for(straight) is Orientation.NONE
+    for mode in Orientation:
+        assert TrajectoryOptions(orientation=mode.value).orientation_for(turned) is mode
+    assert TrajectoryOptions(orientation="none").orientation_for(straight) is Orientation.NONE
+    for word in ("full", "pointing"):
+        with pytest.raises(OptionError, match=rf"{word}.*no rotations.*orientation=\"none\""):
+            TrajectoryOptions(orientation=word).orientation_for(straight)
+    with pytest.raises(OptionError, match=r"'both': valid are full, pointing, none"):
+        TrajectoryOptions(orientation="both").orientation_for(turned)
+
+
+def test_tolerances_follow_the_tracking_unless_given():
+    exact, soft = TrajectoryOptions(), TrajectoryOptions(tracking="soft")
+    assert exact.position_tolerance_or_default < 1e-8 < 1e-3 < soft.position_tolerance_or_default
+    assert exact.rotation_tolerance_or_default < 1e-8 < 1e-2 < soft.rotation_tolerance_or_default
+    given_ones = TrajectoryOptions(tracking="soft", position_tolerance=0.5, rotation_tolerance=0.25)
+    assert given_ones.position_tolerance_or_default == 0.5
+    assert given_ones.rotation_tolerance_or_default == 0.25
+
+
+@given(value=st.floats(1e-6, 1e6))
+def test_one_limit_counts_for_every_joint(value):
+    assert np.array_equal(rate_limit("max_speed", value, ARM), np.full(7, value))
+
+
+def test_limits_per_joint_and_none():
+    limits = [1, 2, 3, 4, 5, 6, np.inf]
+    assert np.array_equal(rate_limit("max_speed", limits, ARM), limits)
+    assert np.array_equal(rate_limit("max_speed", None, ARM), np.full(7, np.inf))
+
+
+@pytest.mark.parametrize("value", [0, -1.0, math.nan, [1, 1, 1, 0, 1, 1, 1]])
+def test_limits_that_leave_no_motion_name_the_joint(value):
+    joint = "shoulder_flexion" if np.ndim(value) == 0 else "elbow_flexion"
+    with pytest.raises(LimitError, match=f"max_acceleration of joint '{joint}' is .*give a positive number"):
+        rate_limit("max_acceleration", value, ARM)
+
+
+@pytest.mark.parametrize("value", [[1.0] * 6, [[1.0] * 7], []])
+def test_wrong_number_of_limits(value):
+    with pytest.raises(LimitError, match=r"max_speed has shape .*expected one number or 7, one per joint"):
+        rate_limit("max_speed", value, ARM)
+
+
+@pytest.mark.parametrize("value", ["fast", [1.0, "x"], {}, [[1.0], [1.0, 2.0]]])
+def test_limits_that_are_no_numbers(value):
+    with pytest.raises(LimitError, match=r"max_speed is .*expected one number or 7"):
+        rate_limit("max_speed", value, ARM)
