@@ -52,7 +52,18 @@ def test_step_stays_inside_and_is_the_best_while_at_most_one_bound_stops_it(seed
         np.testing.assert_allclose(step, expected, atol=1e-7)
     cost, best = (np.sum((J @ d - e) ** 2) + 0.1 * d @ d for d in (step, expected))
     assert cost >= best - 1e-9
-    assert cost <= e @ e + 1e-9  # never worse than staying where it is, by more than rounding
+
+
+@given(
+    seed=SEEDS, rows=st.sampled_from([3, 6]), joints=st.integers(2, 8), room=st.sampled_from([0.0, 0.5, 2])
+)
+def test_with_enough_damping_a_step_never_makes_it_worse(seed, rows, joints, room):
+    # Several joints stopping at once may cost more than it gains; then `reach` raises the damping.
+    J, e, q, rom = step_case(seed, rows, joints, room)
+    step = bounded_step(J, e, 1e6, q, rom)
+    assert np.sum((J @ step - e) ** 2) <= e @ e * (1 + 1e-12)
+    if room == 0.0:
+        assert not step.any()
 
 
 def test_both_kinds_of_case_occur():
