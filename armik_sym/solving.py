@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+import numbers
 from collections.abc import Callable
 from typing import Any
 
 from numpy.typing import ArrayLike
 
+from armik_sym.arm import catalog
 from armik_sym.arm.model import Arm
 from armik_sym.compiled.backend import Backend
-from armik_sym.errors import UnknownNameError
+from armik_sym.errors import OptionError, UnknownNameError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.progress import ProgressCallback
 from armik_sym.solution import Solution
@@ -46,7 +48,8 @@ def solve(
         arm: The arm.
         path: The hand path, n samples.
         method: "trajectory" (all samples at once, IPOPT).
-        start: Known posture at the beginning, shape (dof,), in [rad].
+        start: Known posture at the beginning, shape (dof,), in [rad]; if it does not put the hand on the
+            path, the solution begins near it and says how far away.
         seed: Seed of everything random.
         backend: "auto" (compiled C if possible), "c" or "vm".
         progress: Told what is going on, see `Progress`.
@@ -60,11 +63,12 @@ def solve(
         UnreachablePathError: If samples cannot be reached; names them and the distance.
         SolverError: If the solver found no answer that can be trusted.
         LimitError: If `start` lies outside the range of motion or limits contradict the path.
-        OptionError: If an option has a value the method cannot work with.
+        OptionError: If an option has a value the method cannot work with, or arm or path is none.
 
     Source:
         Nguyen 2021, §3.3 (the task); this package (the trajectory method).
     """
+    _check_types(arm, path, seed)
     if method not in _METHODS:
         raise UnknownNameError("method", method, _METHODS)
     option_type, run = _METHODS[method]
@@ -74,3 +78,16 @@ def solve(
             raise UnknownNameError(f"option of method {method!r}", name, valid)
     chosen = option_type(**options)
     return run(arm, path, chosen, start=start, seed=seed, backend=backend, progress=progress)
+
+
+def _check_types(arm: object, path: object, seed: object) -> None:
+    if not isinstance(arm, Arm):
+        raise OptionError(
+            f"arm is {arm!r}, expected an Arm: use load_arm(NAME or FILE), or one of the catalogue: "
+            f"{', '.join(catalog.names())}"
+        )
+    if not isinstance(path, HandPath):
+        raise OptionError(f"path is a {type(path).__name__}, expected a HandPath: use read_path(FILE)")
+    whole = isinstance(seed, numbers.Integral) and not isinstance(seed, bool)
+    if not whole or int(seed) < 0:  # type: ignore[call-overload]
+        raise OptionError(f"seed is {seed!r}, expected a whole number ≥ 0")

@@ -61,7 +61,7 @@ def forget() -> None:
     kinematics._program.cache_clear()
     backend.warn_once.cache_clear()
     compiler._find.cache_clear()
-    cache_folder._temporary_folder.cache_clear()
+    cache_folder.temporary_folder.cache_clear()
 
 
 @contextlib.contextmanager

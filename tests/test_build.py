@@ -13,10 +13,10 @@ from pathlib import Path
 import pytest
 from compiled_helpers import entries, needs_cc, script
 
-from armik_sym.compiled import build
+from armik_sym.compiled import build, cache_folder
 from armik_sym.compiled.build import build_library
 from armik_sym.compiled.compiler import Compiler, find_compiler
-from armik_sym.errors import CompilerError
+from armik_sym.errors import CacheWarning, CompilerError
 
 pytestmark = needs_cc
 
@@ -165,3 +165,50 @@ def test_record_says_how_it_was_built(folder, cc):
     record = json.loads((library.path.parent / "record.json").read_text())
     assert record["compiler"] == cc.version
     assert isinstance(library.handle, ctypes.CDLL)
+
+
+def test_a_library_that_is_intact_but_does_not_load_is_built_again(folder, cc, monkeypatch):
+    build_library(_SOURCE, cc)
+    genuine, calls = ctypes.CDLL, []
+
+    def fails_once(path):
+        calls.append(path)
+        if len(calls) == 1:
+            raise OSError("wrong ELF class")
+        return genuine(path)
+
+    monkeypatch.setattr(ctypes, "CDLL", fails_once)
+    again = build_library(_SOURCE, cc)
+    assert again.compile_time > 0
+    assert _answer(again) == 42
+    assert len(entries(folder)) == 1
+
+
+def test_where_the_cache_cannot_hold_code_a_temporary_folder_does(folder, cc, monkeypatch):
+    genuine = ctypes.CDLL
+
+    cache_folder.temporary_folder.cache_clear()
+
+    def refuses_the_cache(path):
+        if str(path).startswith(str(folder)):
+            raise OSError(1, "failed to map segment")
+        return genuine(path)
+
+    monkeypatch.setattr(ctypes, "CDLL", refuses_the_cache)
+    with pytest.warns(CacheWarning, match="cannot hold compiled code .*map segment.*temporary folder"):
+        library = build_library(_SOURCE, cc)
+    assert not library.path.is_relative_to(folder)
+
+
+def test_where_nothing_can_hold_code_the_error_is_ours(folder, cc, monkeypatch):
+    cache_folder.temporary_folder.cache_clear()
+
+    def refuses(path):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(ctypes, "CDLL", refuses)
+    with (
+        pytest.warns(CacheWarning, match="No space left"),
+        pytest.raises(CompilerError, match="neither be stored nor loaded"),
+    ):
+        build_library(_SOURCE, cc)

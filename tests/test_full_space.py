@@ -93,8 +93,9 @@ def test_the_objective_is_the_stated_integral(soft):
         e = x[size:].reshape(N, -1)
         cost = (e[:, :3] ** 2).sum(1) / o.position_sigma**2 + (e[:, 3:] ** 2).sum(1) / o.rotation_sigma**2
         expected += 0.5 * np.sum(np.diff(task.path.time) * (cost[1:] + cost[:-1]) / 2)
-    f, _ = evaluators(task.problem(soft=soft, rates=False))
-    assert f(x) == pytest.approx(expected, rel=1e-12)
+    problem = task.problem(soft=soft, rates=False)
+    f, _ = evaluators(problem)
+    assert f(x) == pytest.approx(problem.scale * expected, rel=1e-12)
 
 
 @pytest.mark.parametrize("orientation", Orientation)

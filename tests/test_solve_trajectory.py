@@ -174,9 +174,39 @@ def test_a_start_on_the_path_is_kept(reference):
 def test_a_start_beside_the_path_leads_to_a_posture_on_it(reference, far):
     path, q, _ = reference
     start = EHMCS.rom.lower if far else q[0] + 0.02
-    solution = check(ak.solve(EHMCS, path, start=start, max_speed=None))
-    if not far:
-        assert np.abs(solution.q[0] - start).max() < 0.2
+    solution = ak.solve(EHMCS, path, start=start, max_speed=None)
+    assert not solution.ok
+    assert "start posture does not put the hand on the path" in solution.reasons[0]
+    assert np.array_equal(solution.start, start)
+    gap = np.abs(solution.q[0] - start).max()
+    check(ak.solve(EHMCS, path, start=start, max_speed=None, start_tolerance=gap + 1e-9))
+    assert far or gap < 0.2
+
+
+def test_soft_tracking_begins_with_the_start_posture_itself(reference):
+    path, q, _ = reference
+    start = EHMCS.rom.clip(q[0] + 0.02)
+    solution = ak.solve(EHMCS, path, start=start, tracking="soft")
+    assert np.array_equal(solution.q[0], start)
+
+
+@pytest.mark.parametrize(("rate", "n"), [(1000, 1000), (5000, 1000)])
+def test_controller_rates_are_solved(rate, n):
+    time = np.arange(n) / rate
+    waves = np.sin(2 * np.pi * np.linspace(0.4, 1.0, 7) * time[:, None] + np.arange(7))
+    q = EHMCS.rom.middle + 0.25 * np.minimum(EHMCS.rom.width, 2.0) * waves
+    position, rotation = hand_pose(EHMCS.chain, q, EHMCS.lengths)
+    check(ak.solve(EHMCS, HandPath(time, position, rotation), seed=0))
+
+
+@pytest.mark.parametrize("gap", [1e-4, 1e-6, 1e-8])
+def test_time_stamps_that_nearly_coincide_do_no_harm(gap):
+    time = np.arange(100) / 100
+    time[50] = time[49] + gap
+    waves = np.sin(2 * np.pi * np.linspace(0.4, 1.0, 7) * time[:, None] + np.arange(7))
+    q = EHMCS.rom.middle + 0.25 * np.minimum(EHMCS.rom.width, 2.0) * waves
+    position, rotation = hand_pose(EHMCS.chain, q, EHMCS.lengths)
+    check(ak.solve(EHMCS, HandPath(time, position, rotation)))
 
 
 @pytest.mark.parametrize("chosen", [[0, 12], [0, 8, 20]])
@@ -367,7 +397,9 @@ def test_more_equations_than_joints_is_told_before_anything_runs():
 
 def test_too_few_iterations_is_a_solver_error_with_the_solvers_word():
     path, _ = smooth_path(EHMCS, 8, seed=1)
-    with pytest.raises(SolverError, match=r"no attempt converged.*soft") as caught:
+    with pytest.raises(
+        SolverError, match=r"no attempt converged.*[Rr]aise max_iterations \(now 1\)"
+    ) as caught:
         ak.solve(EHMCS, path, max_iterations=1)
     assert caught.value.status == "Maximum_Iterations_Exceeded"
 

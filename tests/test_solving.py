@@ -92,3 +92,23 @@ def test_the_solution_remembers_what_was_asked():
     assert solution.arm is ARM
     assert solution.path is PATH
     assert solution.timing.solve > 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "options", "words"),
+    [
+        (("ehmcs", PATH), {}, r"'ehmcs', expected an Arm.*load_arm.*alfaiz, ehmcs, human"),
+        ((ARM, "path.csv"), {}, r"a str, expected a HandPath.*read_path"),
+        ((ARM, PATH), {"seed": -1}, r"seed is -1, expected a whole number"),
+        ((ARM, PATH), {"seed": 1.5}, r"seed is 1.5, expected a whole number"),
+        ((ARM, PATH), {"seed": True}, r"seed is True, expected a whole number"),
+    ],
+)
+def test_arguments_of_the_wrong_kind_are_told_what_was_expected(arguments, options, words):
+    with pytest.raises(OptionError, match=words):
+        ak.solve(*arguments, **options)
+
+
+def test_compile_wants_an_arm():
+    with pytest.raises(OptionError, match="expected an Arm"):
+        ak.compile("ehmcs")

@@ -50,11 +50,16 @@ def posture(text: str, arm: Arm) -> list[float]:
     Source:
         None (command line).
     """
+    from armik_sym.arm.display_units import joint_unit
+
     cells = [cell.strip() for cell in text.split(",")]
-    expected = f"expected {arm.dof} angles in degrees, separated by commas: {','.join(arm.joint_names)}"
+    expected = (
+        f"expected {arm.dof} angles in degrees (prismatic joints in mm), separated by commas: "
+        f"{','.join(arm.joint_names)}"
+    )
     if len(cells) != arm.dof:
         raise OptionError(f"--start has {len(cells)} angles, {expected}")
-    angles = []
+    angles: list[float] = []
     for cell in cells:
         try:
             value = float(cell)
@@ -62,7 +67,7 @@ def posture(text: str, arm: Arm) -> list[float]:
             value = math.nan
         if not math.isfinite(value):
             raise OptionError(f"--start holds {cell!r}, {expected}")
-        angles.append(math.radians(value))
+        angles.append(value / joint_unit(arm, len(angles)).factor)
     return angles
 
 

@@ -39,7 +39,7 @@ def check_compiler() -> Finding:
         if compiler is None:
             return Finding("C compiler", "missing", "no $CC, cc, gcc, clang or ziglang", remedy)
         began = time.perf_counter()
-        with tempfile.TemporaryDirectory(prefix="armik_doctor_", ignore_cleanup_errors=True) as work:
+        with _workplace() as work:
             source, library = Path(work) / "test.c", Path(work) / "test.so"
             source.write_text(_SOURCE, encoding="ascii")
             compiler.compile_shared(source, library)
@@ -51,6 +51,13 @@ def check_compiler() -> Finding:
         return Finding("C compiler", "broken", f"{name}: compiles wrongly", remedy)
     took = time.perf_counter() - began
     return Finding("C compiler", "found", f"{name}; compiled a test in {took:.2f} s")
+
+
+def _workplace() -> tempfile.TemporaryDirectory[str]:
+    """A folder inside the cache, where compiled code has to load from."""
+    from armik_sym.compiled.cache_folder import cache_folder
+
+    return tempfile.TemporaryDirectory(prefix="doctor_", dir=cache_folder(), ignore_cleanup_errors=True)
 
 
 def check_cache() -> Finding:

@@ -37,7 +37,8 @@ def build_or_none(source: str, backend: Backend) -> Library | None:
     try:
         compiler = find_compiler()
         if compiler is None:
-            raise CompilerError(f"no C compiler found ($CC, cc, gcc, clang, ziglang): {HOW_TO_GET}")
+            remedy = f": {HOW_TO_GET}" if backend == "c" else ""
+            raise CompilerError(f"no C compiler found ($CC, cc, gcc, clang, ziglang){remedy}")
         return build_library(source, compiler)
     except CompilerError as error:
         if backend == "c":
@@ -57,7 +58,7 @@ def warn_once(reason: str) -> None:
         None (packaging).
     """
     warnings.warn(
-        f"{reason}\nEverything works without compiled code, more slowly, in CasADi's virtual machine. "
+        f"{reason}.\nEverything works without compiled code, more slowly, in CasADi's virtual machine. "
         f"For full speed {HOW_TO_GET}.",
         CompilerWarning,
         stacklevel=5,

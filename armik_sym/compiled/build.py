@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from armik_sym._version import __version__
-from armik_sym.compiled.cache_folder import cache_folder
+from armik_sym.compiled.cache_folder import cache_folder, temporary_folder
 from armik_sym.compiled.compiler import Compiler, processor
+from armik_sym.errors import CompilerError
 
 _LIBRARY = "library.dll" if os.name == "nt" else "library.so"
 _RECORD = "record.json"
@@ -51,20 +52,33 @@ def build_library(source: str, compiler: Compiler) -> Library:
         The loaded library.
 
     Raises:
-        CompilerError: If the compiler fails.
+        CompilerError: If the compiler fails, or what it made can neither be stored nor loaded.
 
     Source:
         None (content-addressed cache).
     """
-    entry = cache_folder() / _key(source, compiler)
+    try:
+        return _build_in(cache_folder(), source, compiler)
+    except OSError as error:
+        problem = f"cannot hold compiled code ({error.strerror or error})"
+    try:
+        return _build_in(temporary_folder(problem), source, compiler)
+    except OSError as error:
+        raise CompilerError("compiled code can neither be stored nor loaded", str(error)) from error
+
+
+def _build_in(folder: Path, source: str, compiler: Compiler) -> Library:
+    """Take the library from a folder, or compile it there; one that does not load is compiled anew."""
+    entry = folder / _key(source, compiler)
     started = time.perf_counter()
-    compiled = False
-    if not _is_sound(entry):
-        _compile_into(entry, source, compiler)
-        compiled = True
-    library = entry / _LIBRARY
-    handle = ctypes.CDLL(str(library))
-    return Library(library, handle, time.perf_counter() - started if compiled else 0.0)
+    if _is_sound(entry):
+        try:
+            return Library(entry / _LIBRARY, ctypes.CDLL(str(entry / _LIBRARY)), 0.0)
+        except OSError:
+            shutil.rmtree(entry, ignore_errors=True)
+    _compile_into(entry, source, compiler)
+    handle = ctypes.CDLL(str(entry / _LIBRARY))
+    return Library(entry / _LIBRARY, handle, time.perf_counter() - started)
 
 
 def _key(source: str, compiler: Compiler) -> str:

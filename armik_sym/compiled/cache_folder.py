@@ -29,11 +29,15 @@ def cache_folder() -> Path:
         None (XDG base directory specification, through platformdirs).
     """
     chosen = os.environ.get(ENVIRONMENT_VARIABLE)
-    wanted = Path(chosen) if chosen else Path(platformdirs.user_cache_dir("armik_sym", appauthor=False))
+    wanted = (
+        Path(chosen).expanduser()
+        if chosen
+        else Path(platformdirs.user_cache_dir("armik_sym", appauthor=False))
+    )
     problem = _prepare(wanted)
     if problem is None:
         return wanted
-    return _temporary_folder(f"{wanted}: {problem}")
+    return temporary_folder(f"{wanted} {problem}")
 
 
 def _prepare(folder: Path) -> str | None:
@@ -54,7 +58,18 @@ def _prepare(folder: Path) -> str | None:
 
 
 @functools.cache
-def _temporary_folder(problem: str) -> Path:
+def temporary_folder(problem: str) -> Path:
+    """A private folder that lives as long as this process, with one warning that says why.
+
+    Args:
+        problem: What is wrong with the cache folder.
+
+    Returns:
+        The folder; it exists.
+
+    Source:
+        None (packaging).
+    """
     warnings.warn(
         f"the cache folder {problem}; compiled code is kept in a temporary folder for this process only. "
         f"Set {ENVIRONMENT_VARIABLE} to a private writable folder to keep it.",

@@ -66,7 +66,9 @@ class Compiler:
     def _run(self, flags: tuple[str, ...], source: Path, library: Path) -> None:
         command = [*self.command, *flags, "-o", str(library), str(source), "-lm"]
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT, check=False)
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", timeout=_TIMEOUT, check=False
+            )
         except (OSError, subprocess.SubprocessError) as error:
             raise CompilerError(
                 f"C compiler {shlex.join(self.command)!r} could not run", str(error)
@@ -123,7 +125,12 @@ def _find(cc: str, path: str) -> Compiler | None:
 def _probe(command: tuple[str, ...], origin: str) -> Compiler | None:
     try:
         done = subprocess.run(
-            [*command, "--version"], capture_output=True, text=True, timeout=_TIMEOUT, check=False
+            [*command, "--version"],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=_TIMEOUT,
+            check=False,
         )
     except (OSError, subprocess.SubprocessError):
         return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from armik_sym.arm.model import Arm
+from armik_sym.errors import OptionError
 
 
 @dataclass(frozen=True)
@@ -29,9 +30,16 @@ class ArmStructure:
         Returns:
             Its structure.
 
+        Raises:
+            OptionError: If it is no arm.
+
         Source:
             None (bookkeeping).
         """
+        if not isinstance(arm, Arm):
+            raise OptionError(
+                f"arm is {arm!r}, expected an Arm: use load_arm(NAME or FILE), or the catalogue"
+            )
         chain = arm.chain
         numbers = (chain.base.tobytes(), chain.tool.tobytes(), arm.pointing_axis.tobytes())
         return cls((chain.links, chain.convention, *numbers), arm)

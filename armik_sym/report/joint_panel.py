@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from armik_sym.arm.display_units import joint_unit
 from armik_sym.motion.joint_motion import JointMotion
 from armik_sym.report.style import (
     ALLOWED,
@@ -23,7 +24,7 @@ from armik_sym.report.style import (
     remark,
     style_axes,
 )
-from armik_sym.report.words import joint_title, joint_unit
+from armik_sym.report.words import joint_title
 from armik_sym.solution import Solution
 
 _SOLVED_LINE: dict[str, Any] = {"color": SOLVED, "linewidth": 1.8}
@@ -45,7 +46,8 @@ def draw_joint(axes: Axes, solution: Solution, i: int, measured: JointMotion | N
         Compare Nguyen 2021, Figs. 9-13.
     """
     name = solution.arm.joint_names[i]
-    unit, factor = joint_unit(solution.arm, i)
+    shown = joint_unit(solution.arm, i)
+    unit, factor = shown.name, shown.factor
     lower, upper = factor * solution.arm.rom.lower[i], factor * solution.arm.rom.upper[i]
     word = "angle" if unit == "deg" else "shift"
     style_axes(axes, joint_title(name), "time [s]", f"{word} [{unit}]")
@@ -82,7 +84,8 @@ def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> No
     """
     axes.set_axis_off()
     tightest = int(np.argmin(solution.rom_margin))
-    unit, factor = joint_unit(solution.arm, tightest)
+    shown = joint_unit(solution.arm, tightest)
+    unit, factor = shown.name, shown.factor
     name = joint_title(solution.arm.joint_names[tightest]).lower()
     nearest = _margin_words(factor * float(solution.rom_margin[tightest]), unit)
     entries: list[Line2D | Patch] = [Line2D([], [], **_SOLVED_LINE, label="solved")]

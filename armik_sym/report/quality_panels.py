@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
+from armik_sym.arm.display_units import joint_units
 from armik_sym.report.style import LIMIT, SOLVED, TEXT_SIZE, label, remark, style_axes
-from armik_sym.report.words import at_most, joint_title, joint_unit, plain, power_of_ten
+from armik_sym.report.words import at_most, joint_title, plain, power_of_ten
 from armik_sym.solution import Solution
 from armik_sym.solution.motion_rates import joint_speed
 
@@ -82,7 +83,7 @@ def draw_speed(axes: Axes, solution: Solution) -> None:
         None (reporting).
     """
     arm = solution.arm
-    units = [joint_unit(arm, i) for i in range(arm.dof)]
+    units = [(unit.name, unit.factor) for unit in joint_units(arm)]
     unit = "deg" if any(name == "deg" for name, _ in units) else "mm"
     chosen = [i for i, (name, _) in enumerate(units) if name == unit]
     factor = units[chosen[0]][1]

@@ -6,10 +6,6 @@ import math
 
 import numpy as np
 
-from armik_sym.arm.dh import JointType
-from armik_sym.arm.model import Arm
-
-_RADIANS_TO_DEGREES = 180.0 / math.pi
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SMALLEST_WORTH_A_NUMBER = 1e-6
 
@@ -28,24 +24,6 @@ def joint_title(name: str) -> str:
     """
     words = name.replace("_", " ").strip()
     return words[:1].upper() + words[1:]
-
-
-def joint_unit(arm: Arm, i: int) -> tuple[str, float]:
-    """The unit a joint is shown in, and the factor from SI to it: deg, or mm for a prismatic joint.
-
-    Args:
-        arm: The arm.
-        i: Index of the joint.
-
-    Returns:
-        Name of the unit, and shown value = factor · value_SI.
-
-    Source:
-        SI.
-    """
-    if arm.chain.moving_links[i].joint is JointType.PRISMATIC:
-        return "mm", 1000.0
-    return "deg", _RADIANS_TO_DEGREES
 
 
 def at_most(value: float, unit: str) -> str:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from armik_sym._version import __version__
+from armik_sym.arm.display_units import joint_units
 from armik_sym.errors import MotionFileError
 
 if TYPE_CHECKING:
@@ -52,9 +53,14 @@ def _record(solution: Solution) -> dict[str, object]:
         "program": f"armik_sym {__version__}",
         "note": solution.path.note,
         "arm": solution.arm.name,
+        "arm_description": solution.arm.description,
         "lengths_m": dict(solution.arm.lengths),
+        "joints": list(solution.arm.joint_names),
+        "lower_limits": solution.arm.rom.lower.tolist(),
+        "upper_limits": solution.arm.rom.upper.tolist(),
         "method": solution.method,
         "orientation": solution.orientation.value,
+        "settings": {key: _plain(value) for key, value in solution.settings.items()},
         "seed": solution.seed,
         "ok": solution.ok,
         "reasons": list(solution.reasons),
@@ -62,13 +68,20 @@ def _record(solution: Solution) -> dict[str, object]:
     }
 
 
+def _plain(value: object) -> object:
+    """A setting as JSON can hold it."""
+    return np.asarray(value).tolist() if isinstance(value, (np.ndarray, np.generic, list, tuple)) else value
+
+
 def _write_csv(solution: Solution, path: Path) -> None:
-    columns = ["time [s]", *(f"{name} [deg]" for name in solution.arm.joint_names)]
+    units = joint_units(solution.arm)
+    names = zip(solution.arm.joint_names, units, strict=True)
+    columns = ["time [s]", *(f"{name} [{unit.name}]" for name, unit in names)]
     columns += ["position_error [mm]", "rotation_error [deg]"]
     values = np.column_stack(
         [
             solution.time,
-            np.rad2deg(solution.q),
+            solution.q * [unit.factor for unit in units],
             1000 * solution.position_error,
             np.rad2deg(solution.rotation_error),
         ]

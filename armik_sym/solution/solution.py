@@ -41,6 +41,7 @@ class Solution:
         method: Name of the method.
         orientation: What of the path's orientation was tracked.
         requirements: What `ok` is judged by.
+        start: Known posture at the beginning, shape (dof,), in [rad], or None.
         seed: Seed of everything random in the solve.
         timing: Where the time went.
         status: The solver's own word.
@@ -57,6 +58,7 @@ class Solution:
     method: str
     orientation: Orientation
     requirements: Requirements
+    start: Array | None = None
     seed: int = 0
     timing: Timing = field(default_factory=Timing)
     status: str = ""

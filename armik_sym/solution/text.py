@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from armik_sym.arm.display_units import joint_units
+
 if TYPE_CHECKING:
     from armik_sym.solution.solution import Solution
 
@@ -28,7 +30,9 @@ def summary(solution: Solution) -> str:
 
 def _lines(s: Solution) -> list[str]:
     tightest, widest = int(np.argmin(s.rom_margin)), int(np.argmax(s.max_step))
-    names = s.arm.joint_names
+    fastest = int(np.argmax(s.max_speed))
+    names, units = s.arm.joint_names, joint_units(s.arm)
+    all_turn = all(unit.si == "rad" for unit in units)
     verdict = "ok" if s.ok else "NOT ok"
     rotation = (
         "" if s.orientation.value == "none" else f", rotation {np.rad2deg(s.rotation_error.max()):.3g}°"
@@ -36,10 +40,10 @@ def _lines(s: Solution) -> list[str]:
     lines = [
         f"{verdict}: arm {s.arm.name}, {len(s.q)} samples over {s.path.duration:.3g} s, method {s.method}",
         f"  largest error   position {1000 * s.position_error.max():.3g} mm{rotation}",
-        f"  margin to range {np.rad2deg(s.rom_margin[tightest]):.3g}° at the least ({names[tightest]})",
-        f"  largest step    {np.rad2deg(s.max_step[widest]):.3g}° ({names[widest]}), "
-        f"speed {np.rad2deg(s.max_speed.max()):.3g}°/s",
-        f"  way in joints   {np.rad2deg(s.arc_length):.4g}°",
+        f"  margin to range {units[tightest].text(s.rom_margin[tightest])} at the least ({names[tightest]})",
+        f"  largest step    {units[widest].text(s.max_step[widest])} ({names[widest]}), "
+        f"speed {units[fastest].text(s.max_speed[fastest], per='/s')} ({names[fastest]})",
+        *([f"  way in joints   {np.rad2deg(s.arc_length):.4g}°"] if all_turn else []),
         f"  solver          {s.status}, {s.iterations} iterations; build {s.timing.build:.2g} s, "
         f"compile {s.timing.compile:.2g} s, solve {s.timing.solve:.2g} s",
     ]

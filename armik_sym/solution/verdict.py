@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from armik_sym.arm.display_units import joint_units
+
 if TYPE_CHECKING:
     from armik_sym.solution.solution import Solution
 
@@ -20,12 +22,14 @@ class Requirements:
         rotation_tolerance: Largest rotation error, in [rad].
         max_speed: Largest joint speed, shape (dof,), in [rad/s].
         max_acceleration: Largest joint acceleration, shape (dof,), in [rad/s²].
+        start_tolerance: Largest difference between a start posture and sample 0, in [rad].
     """
 
     position_tolerance: float
     rotation_tolerance: float
     max_speed: np.ndarray[tuple[int, ...], np.dtype[np.float64]]
     max_acceleration: np.ndarray[tuple[int, ...], np.dtype[np.float64]]
+    start_tolerance: float = np.inf
 
 
 def reasons_against(solution: Solution) -> tuple[str, ...]:
@@ -60,17 +64,25 @@ def reasons_against(solution: Solution) -> tuple[str, ...]:
             f"rotation error {np.rad2deg(solution.rotation_error[k]):.3g}° at sample {k} "
             f"(allowed {np.rad2deg(need.rotation_tolerance):.3g}°)"
         )
-    names = solution.arm.joint_names
-    for i in np.flatnonzero(solution.rom_margin < 0):
-        reasons.append(f"{names[i]} leaves its range of motion by {-np.rad2deg(solution.rom_margin[i]):.3g}°")
-    for i in np.flatnonzero(solution.max_speed > need.max_speed):
+    names, units = solution.arm.joint_names, joint_units(solution.arm)
+    if solution.start is not None:
+        gap = np.abs(solution.q[0] - solution.start)
+        j = int(np.argmax(gap))
+        if gap[j] > need.start_tolerance:
+            reasons.append(
+                "the start posture does not put the hand on the path: the posture at sample 0 differs from "
+                f"it by {units[j].text(gap[j])} in {names[j]} (allowed {units[j].text(need.start_tolerance)})"
+            )
+    for i in np.flatnonzero(solution.rom_margin < 0).tolist():
+        reasons.append(f"{names[i]} leaves its range of motion by {units[i].text(-solution.rom_margin[i])}")
+    for i in np.flatnonzero(solution.max_speed > need.max_speed).tolist():
         reasons.append(
-            f"{names[i]} moves at {np.rad2deg(solution.max_speed[i]):.4g}°/s "
-            f"(allowed {np.rad2deg(need.max_speed[i]):.4g}°/s)"
+            f"{names[i]} moves at {units[i].text(solution.max_speed[i], 4, '/s')} "
+            f"(allowed {units[i].text(need.max_speed[i], 4, '/s')})"
         )
-    for i in np.flatnonzero(solution.max_acceleration > need.max_acceleration):
+    for i in np.flatnonzero(solution.max_acceleration > need.max_acceleration).tolist():
         reasons.append(
-            f"{names[i]} accelerates at {np.rad2deg(solution.max_acceleration[i]):.4g}°/s² "
-            f"(allowed {np.rad2deg(need.max_acceleration[i]):.4g}°/s²)"
+            f"{names[i]} accelerates at {units[i].text(solution.max_acceleration[i], 4, '/s²')} "
+            f"(allowed {units[i].text(need.max_acceleration[i], 4, '/s²')})"
         )
     return tuple(reasons)

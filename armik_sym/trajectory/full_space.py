@@ -30,10 +30,12 @@ class QuadraticCost:
     Attributes:
         P: Symmetric sparse matrix, shape (n_x, n_x).
         c: Shape (n_x,).
+        scale: Factor by which the user's objective was multiplied to get here.
     """
 
     P: sp.csc_array
     c: Array
+    scale: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +49,7 @@ class FullSpaceProblem:
         gradient: Function (x, p) → (f, df/dx).
         jacobian: Function (x, p) → (g, dg/dx).
         hessian: Function (x, p, λ_f, λ_g) → upper triangle of the Lagrangian's Hessian.
+        scale: Factor by which the user's objective was multiplied.
     """
 
     x: ca.MX
@@ -55,6 +58,7 @@ class FullSpaceProblem:
     gradient: ca.Function
     jacobian: ca.Function
     hessian: ca.Function
+    scale: float = 1.0
 
 
 def full_space_problem(
@@ -121,6 +125,7 @@ def full_space_problem(
         gradient=ca.Function("grad_f", [x, p], [f, Px + ca.DM(cost.c)]),
         jacobian=ca.Function("jac_g", [x, p], [g, J]),
         hessian=ca.Function("hess_lag", [x, p, lam_f, lam_g], [H]),
+        scale=cost.scale,
     )
 
 

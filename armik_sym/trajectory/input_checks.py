@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.dh import JointType
+from armik_sym.arm.display_units import joint_unit
 from armik_sym.arm.model import Arm
 from armik_sym.errors import LimitError, OptionError, ShapeError
 from armik_sym.motion.hand_path import HandPath
@@ -45,11 +46,12 @@ def check_start(arm: Arm, start: ArrayLike | None) -> Array | None:
     outside = np.flatnonzero(~(arm.rom.margin(q) >= 0))
     if outside.size:
         i = int(outside[0])
-        hint = "; angles are in radians" if np.abs(q[i]) > 2 * np.pi else ""
+        hint = "; angles are in radians" if np.abs(q).max() > 2 * np.pi else ""
+        unit = joint_unit(arm, i)
         raise LimitError(
-            f"start posture: {arm.joint_names[i]} is {q[i]:.6g} rad ({np.rad2deg(q[i]):.4g}°), outside its "
-            f"range of motion {arm.rom.lower[i]:.6g} to {arm.rom.upper[i]:.6g} rad "
-            f"({np.rad2deg(arm.rom.lower[i]):.4g}° to {np.rad2deg(arm.rom.upper[i]):.4g}°){hint}"
+            f"start posture: {arm.joint_names[i]} is {q[i]:.6g} {unit.si} ({unit.text(q[i], 4)}), outside "
+            f"its range of motion {arm.rom.lower[i]:.6g} to {arm.rom.upper[i]:.6g} {unit.si} "
+            f"({unit.text(arm.rom.lower[i], 4)} to {unit.text(arm.rom.upper[i], 4)}){hint}"
         )
     return q
 
@@ -95,14 +97,15 @@ def raise_too_fast(arm: Arm, path: HandPath, q: Array, max_speed: Array, max_acc
     """
     speed = np.abs(joint_speed(path.time, q))
     acceleration = np.abs(joint_acceleration(path.time, q))
-    name, rates, limits, unit = "max_speed", speed, max_speed, "°/s"
+    name, rates, limits, per = "max_speed", speed, max_speed, "/s"
     if not np.any(speed > max_speed):
-        name, rates, limits, unit = "max_acceleration", acceleration, max_acceleration, "°/s²"
-    k, i = np.unravel_index(int(np.argmax(rates / limits)), rates.shape)
+        name, rates, limits, per = "max_acceleration", acceleration, max_acceleration, "/s²"
+    k, i = (int(index) for index in np.unravel_index(int(np.argmax(rates / limits)), rates.shape))
+    unit = joint_unit(arm, i)
     raise LimitError(
         f"the path can be followed, but no motion within {name} was found: without the limit the best one "
-        f"moves {arm.joint_names[i]} at {np.rad2deg(rates[k, i]):.4g}{unit} after sample {k} (allowed "
-        f'{np.rad2deg(limits[i]):.4g}{unit}). Raise {name}, slow the path down, or use tracking="soft".'
+        f"moves {arm.joint_names[i]} at {unit.text(rates[k, i], 4, per)} after sample {k} (allowed "
+        f'{unit.text(limits[i], 4, per)}). Raise {name}, slow the path down, or use tracking="soft".'
     )
 
 

@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 IterationCallback = Callable[[int, float], None]
 
 _FEASIBLE = 1e-10
+_OPTIMAL = 1e-8
+_FINEST = 1e-11
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +148,7 @@ def run_ipopt(
             # Bounds are made here and sound; the check would print where joints of zero range leave fewer
             # variables than equations, which IPOPT can handle.
             "inputs_check": False,
-            "ipopt": _settings(max_iterations, output),
+            "ipopt": _settings(problem.scale, max_iterations, output),
         },
     )
     try:
@@ -162,21 +164,23 @@ def run_ipopt(
     stats = solver.stats()
     return IpoptResult(
         x=np.asarray(found["x"]).ravel(),
-        objective=float(found["f"]),
+        objective=float(found["f"]) / problem.scale,
         status=str(stats["return_status"]),
         iterations=int(stats["iter_count"]),
         converged=bool(stats["success"]),
     )
 
 
-def _settings(max_iterations: int, output: bool) -> dict[str, Any]:
+def _settings(scale: float, max_iterations: int, output: bool) -> dict[str, Any]:
+    # The tolerance is meant for the user's objective; a scaled one needs a finer one.
+    tolerance = max(_OPTIMAL * scale, _FINEST)
     return {
         "print_level": 5 if output else 0,
         "sb": "no" if output else "yes",
         "max_iter": int(max_iterations),
-        "tol": 1e-8,
+        "tol": tolerance,
         "constr_viol_tol": _FEASIBLE,
-        "acceptable_tol": 1e-6,
+        "acceptable_tol": 100 * tolerance,
         "acceptable_constr_viol_tol": _FEASIBLE,
         "bound_relax_factor": 0.0,
         "honor_original_bounds": "yes",

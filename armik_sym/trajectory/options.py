@@ -43,6 +43,8 @@ class TrajectoryOptions:
             1e-9 m for exact tracking, 10 mm for soft.
         rotation_tolerance: The same for the rotation error, in [rad]; None means 1e-9 rad for exact
             tracking, 5° for soft.
+        start_tolerance: Difference between a given start posture and the first posture, joint by joint, up
+            to which the solution calls itself ok, in [rad].
         max_iterations: IPOPT iterations per attempt.
         ipopt_output: Let IPOPT print its iterations.
 
@@ -61,6 +63,7 @@ class TrajectoryOptions:
     rotation_sigma: float = 0.01
     position_tolerance: float | None = None
     rotation_tolerance: float | None = None
+    start_tolerance: float = math.radians(1.0)
     max_iterations: int = 300
     ipopt_output: bool = False
 
@@ -69,7 +72,7 @@ class TrajectoryOptions:
             raise OptionError(f"tracking is {self.tracking!r}: valid are exact, soft")
         for name in ("speed_weight", "acceleration_weight", "posture_weight"):
             _check(name, getattr(self, name), zero=True)
-        for name in ("position_sigma", "rotation_sigma", "max_iterations"):
+        for name in ("position_sigma", "rotation_sigma", "start_tolerance", "max_iterations"):
             _check(name, getattr(self, name), zero=False)
         if self.max_iterations != int(self.max_iterations):
             raise OptionError(f"max_iterations is {self.max_iterations!r}, expected a whole number")

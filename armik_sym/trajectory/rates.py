@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+_NEAREST = 0.1
+
 
 def speed_matrix(time: Array) -> sp.csr_array:
     """D with (D q)_k = (q_{k+1} - q_k)/h_k, h_k = t_{k+1} - t_k.
@@ -68,6 +70,9 @@ def smoothness_matrix(
 ) -> sp.csr_array:
     """K with ½ qᵀ K q = ½ ∫ speed_weight·q̇² + acceleration_weight·q̈² + posture_weight·q² dt.
 
+    Samples nearer to each other than a tenth of the median spacing count as that far apart: 1/h³ of a
+    stray time stamp would otherwise drown everything else.
+
     Args:
         time: Time stamps, shape (n,), in [s].
         speed_weight: Weight of squared speed.
@@ -81,8 +86,10 @@ def smoothness_matrix(
         None (this package).
     """
     n = len(time)
-    first, second = speed_matrix(time), acceleration_matrix(time)
-    K = speed_weight * (first.T @ sp.diags_array(np.diff(time)) @ first)
+    spacing = np.diff(time)
+    spaced = np.concatenate([[0.0], np.cumsum(np.maximum(spacing, _NEAREST * np.median(spacing)))])
+    first, second = speed_matrix(spaced), acceleration_matrix(spaced)
+    K = speed_weight * (first.T @ sp.diags_array(np.diff(spaced)) @ first)
     if n >= 3:
-        K = K + acceleration_weight * (second.T @ sp.diags_array(0.5 * (time[2:] - time[:-2])) @ second)
+        K = K + acceleration_weight * (second.T @ sp.diags_array(0.5 * (spaced[2:] - spaced[:-2])) @ second)
     return sp.csr_array(K + sp.diags_array(posture_weight * sample_durations(time)))

@@ -57,8 +57,9 @@ def solve_trajectory(
         arm: The arm.
         path: The hand path.
         options: Choices, see `TrajectoryOptions`.
-        start: Known posture at the beginning, shape (dof,), in [rad]. The first sample gets the posture
-            nearest to it (in the damped least-squares sense) that puts the hand on the path.
+        start: Known posture at the beginning, shape (dof,), in [rad]. Soft tracking begins with it. Exact
+            tracking begins with it if it puts the hand on sample 0, otherwise with a posture near it
+            that does; a difference above `start_tolerance` is a reason against the solution.
         seed: Seed of the random first postures tried from cold.
         backend: "auto", "c" or "vm".
         progress: Told what is going on, see `Progress`.
@@ -93,7 +94,7 @@ def solve_trajectory(
 
     pose_solver = PoseSolver(kinematics, SampleError(arm, path, orientation))
     soft = options.tracking == "soft"
-    first = None if start is None else first_near(pose_solver, arm.rom, start, seed)
+    first = start if start is None or soft else first_near(pose_solver, arm.rom, start, seed)
     task = Task(arm, path, orientation, options, max_speed, max_acceleration, first, stage)
     if progress:
         progress(Progress("first guess"))
@@ -112,7 +113,9 @@ def solve_trajectory(
             rotation_tolerance=options.rotation_tolerance_or_default,
             max_speed=max_speed,
             max_acceleration=max_acceleration,
+            start_tolerance=options.start_tolerance,
         ),
+        start=start,
         seed=seed,
         timing=Timing(ready - began - compile_time, compile_time, time.perf_counter() - ready),
         status=outcome.result.status,
@@ -157,11 +160,21 @@ def _first_converged(task: Task, outcomes: Iterator[Attempt]) -> Attempt:
     status = last.result.status if last else "no guess"
     if too_fast:
         raise_too_fast(task.arm, task.path, too_fast[0], task.max_speed, task.max_acceleration)
-    raise SolverError(
-        f"no attempt converged (last: {status}). Every sample can be reached on its own, but no continuous "
-        f"motion of arm {task.arm.name!r} inside its range of motion and rate limits was found. Raise "
-        'max_speed or max_acceleration, give a start posture, or use tracking="soft".',
-        status,
+    raise SolverError(f"no attempt converged (last: {status}). {_what_to_do(task, status)}", status)
+
+
+def _what_to_do(task: Task, status: str) -> str:
+    if status == "Maximum_Iterations_Exceeded":
+        return f"Raise max_iterations (now {task.options.max_iterations})."
+    if status in ("Infeasible_Problem_Detected", "no guess"):
+        return (
+            f"Every sample can be reached on its own, but no continuous motion of arm {task.arm.name!r} "
+            "inside its range of motion and rate limits was found. Raise max_speed or max_acceleration, give "
+            'a start posture, or use tracking="soft".'
+        )
+    return (
+        "The solver ran into numerical trouble: look at time stamps that nearly coincide and at weights that "
+        'differ by many orders of magnitude, or use tracking="soft".'
     )
 
 
