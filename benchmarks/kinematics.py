@@ -231,7 +231,7 @@ def show(arm: Arm, table: Timings) -> None:
     ratios["python new array / C loop fresh"] = (big, "C loop, fresh")
     ratios["python new array / C loop warm"] = (big, "C loop, warm")
     ratios["python new array / plain C loop warm"] = (big, "plain C loop, warm")
-    print("ratios")
+    print("ratios (aim: at most 1.2 with the same kind of memory on both sides)")
     for title, (above, below) in ratios.items():
         print(f"{title:38}" + "".join(f"{table[above][k] / table[below][k]:16.2f}    " for k in QUANTITIES))
 

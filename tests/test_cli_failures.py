@@ -174,3 +174,12 @@ def test_progress_is_shown_in_a_terminal_only(capsys, monkeypatch):
         captured = capsys.readouterr()
         assert captured.out == ""
         assert bool(captured.err) is terminal
+
+
+def test_messages_speak_the_language_of_the_command_line():
+    from armik_sym.cli.failures import as_typed
+
+    assert (
+        as_typed('Use tracking="soft" or orientation="none".') == "Use --tracking soft or --orientation none."
+    )
+    assert as_typed("Raise max_speed.") == "Raise --max-speed."

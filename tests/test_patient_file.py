@@ -64,8 +64,6 @@ def test_named_lengths_change_and_all_others_stay(tmp_path):
 
 
 def test_units_are_only_asked_for_if_something_has_one(tmp_path):
-    arm = load_arm(write(tmp_path, 'arm = "ehmcs"\n'))
-    np.testing.assert_array_equal(arm.rom.lower, catalog.ehmcs().rom.lower)
     load_arm(
         write(tmp_path, 'arm = "ehmcs"\nangle_unit = "rad"\n[range_of_motion]\nelbow_flexion = [0.5, 1]\n')
     )
@@ -251,3 +249,17 @@ def test_a_patient_may_refer_to_another_patient_and_only_narrow_further(tmp_path
     assert np.rad2deg(arm.rom.upper[arm.joint_index("wrist_extension")]) == pytest.approx(25.5)
     assert arm.lengths["forearm"] == pytest.approx(0.241)
     refused(tmp_path, head + "elbow_flexion = [20, 90]\n", "[20, 90] deg", "own [30, 100] deg")
+
+
+def test_a_patient_file_that_changes_nothing_is_refused(tmp_path):
+    file = tmp_path / "p.toml"
+    file.write_text('arm = "ehmcs"\nangle_unit = "deg"\n', encoding="utf-8")
+    with pytest.raises(ArmFileError, match=r"p\.toml: neither \[range_of_motion\] nor \[lengths\].*ehmcs"):
+        load_arm(file)
+
+
+def test_the_patient_can_be_traced_from_the_arm(tmp_path):
+    file = tmp_path / "p.toml"
+    text = 'patient = "P07"\narm = "ehmcs"\nangle_unit = "deg"\n[range_of_motion]\nelbow_flexion = [10, 90]\n'
+    file.write_text(text, encoding="utf-8")
+    assert load_arm(file).description.endswith("narrowed by patient P07, p.toml")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,8 @@ def patient_from_table(path: Path, table: dict[str, Any], arm: Arm) -> Arm:
         The arm with the patient's range of motion and segment lengths.
 
     Raises:
-        ArmFileError: If a joint is unknown, a limit lies outside the arm's own, or lower > upper.
+        ArmFileError: If a joint is unknown, a limit lies outside the arm's own, lower > upper, or the
+            file changes nothing.
         UnitError: If a unit is not declared.
 
     Source:
@@ -50,6 +52,11 @@ def patient_from_table(path: Path, table: dict[str, Any], arm: Arm) -> Arm:
     check_keys(path, "the file", table, _PATIENT_KEYS)
     ranges = sub_table(path, table, "range_of_motion")
     lengths = sub_table(path, table, "lengths")
+    if not ranges and not lengths:
+        raise ArmFileError(
+            f"{path}: neither [range_of_motion] nor [lengths]: a patient file has to say what differs from "
+            f"arm {arm.name!r}"
+        )
     lower, upper = arm.rom.lower.copy(), arm.rom.upper.copy()
     for joint, value in ranges.items():
         i = _joint_index(path, arm, joint)
@@ -67,7 +74,8 @@ def patient_from_table(path: Path, table: dict[str, Any], arm: Arm) -> Arm:
             )
     except (ArmModelError, UnknownNameError) as error:
         raise ArmFileError(f"{path}: {error}") from error
-    return narrowed
+    patient = f"patient {table['patient']}, {path.name}" if "patient" in table else path.name
+    return replace(narrowed, description=f"{arm.description}; narrowed by {patient}")
 
 
 def _joint_index(path: Path, arm: Arm, joint: str) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -70,7 +71,23 @@ def paragraph(error: BaseException) -> str:
         where = f"{error.filename}: " if error.filename is not None else ""
         return f"{where}{error.strerror}"
     lines = [line.rstrip() for line in str(error).splitlines() if line.strip()]
-    return "\n".join(lines) or type(error).__name__
+    return as_typed("\n".join(lines)) or type(error).__name__
+
+
+def as_typed(text: str) -> str:
+    """A message of the library with its Python arguments spelled as options of the command line.
+
+    Args:
+        text: The message, for example with 'tracking="soft"'.
+
+    Returns:
+        The message, with '--tracking soft'.
+
+    Source:
+        None (command line).
+    """
+    text = re.sub(r"""\b(tracking|orientation)=["'](\w+)["']""", r"--\1 \2", text)
+    return re.sub(r"\b(max)_(speed|acceleration)\b", r"--\1-\2", text)
 
 
 @contextmanager

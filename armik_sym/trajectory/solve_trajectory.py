@@ -100,7 +100,7 @@ def solve_trajectory(
         progress(Progress("first guess"))
     tries = guesses(pose_solver, path.time, arm.rom, first, seed)
     if not soft:
-        tries = _exact_guesses(tries, task, pose_solver, seed)
+        tries = _exact_guesses(tries, task, pose_solver, seed, progress)
     outcome = _first_converged(task, attempts(task, tries, soft=soft, progress=progress))
     return Solution(
         arm=arm,
@@ -124,7 +124,9 @@ def solve_trajectory(
     )
 
 
-def _exact_guesses(tries: Iterator[Guess], task: Task, solver: PoseSolver, seed: int) -> Iterator[Guess]:
+def _exact_guesses(
+    tries: Iterator[Guess], task: Task, solver: PoseSolver, seed: int, progress: ProgressCallback | None
+) -> Iterator[Guess]:
     """Pass guesses on; where the first misses samples or all fail, see whether the path can be reached."""
     first: Array = task.arm.rom.middle
     for number, guess in enumerate(tries):
@@ -134,6 +136,8 @@ def _exact_guesses(tries: Iterator[Guess], task: Task, solver: PoseSolver, seed:
             if missed.size and _is_lost(task, solver, int(missed[np.argmax(guess.errors[missed])]), guess):
                 break
         yield guess
+    if progress:
+        progress(Progress("samples out of reach"))
     found = find_unreachable(solver, task.arm, len(task.path), first, seed)
     if found.samples.size:
         raise_unreachable(task.arm, task.path, task.orientation, found)

@@ -29,8 +29,9 @@ def alfaiz(upper_arm: float = 0.30, forearm: float = 0.24) -> Arm:
       **+π/2** only; it is used.
     - *s2, c2, s6, c6.* Eq. (7), (8), (23) and (38)-(46) hold with sines and cosines of the joint angle
       q_i without the offset of Table 1, although A_2 and A_6 are printed "of theta".
-    - *Lengths.* The upper arm is L4 in Table 1 and l4 in the equations; the forearm is L5 there, l3
-      here. No numbers are printed; the averages of Nguyen 2021, Table 1 (0.30 and 0.24 m) are used.
+    - *Lengths.* The upper arm is L4 in Table 1 and l4 in the equations; the forearm is L5 in Table 1,
+      l5 in A_5 and l3 in the equations. Table 1 is in centimetres. No numbers are printed; the averages
+      of Nguyen 2021, Table 1 (0.30 and 0.24 m) are used.
     - *Range of motion.* None is printed. These joints are no anatomical movements: q2 and q3 swing the
       upper arm, q7 rolls the hand about its own axis. Used: the elbow as in Nguyen 2021, Table 2
       (0…145°), ±90° for the two bends of the wrist (where asin in eq. 40 is one-to-one), a full turn
