@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,10 @@ settings.register_profile("armik", deadline=None)
 settings.load_profile("armik")
 
 REPOSITORY = Path(__file__).resolve().parent.parent
+
+# The ledger is no part of the installed package; at the end of the path, so that the installed package
+# is the one under test.
+sys.path.append(str(REPOSITORY))
 
 
 @pytest.fixture(scope="session")

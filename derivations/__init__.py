@@ -1,0 +1,1 @@
+"""The papers' equations, one by one: what is printed, what is true, and why."""
