@@ -4,16 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from anatomy import (
+    DORSAL,
+    ELBOW,
+    FINGERS,
+    FORWARD,
+    HAND,
+    MEDIAL,
+    RADIAL,
+    UP,
+    WRIST,
+    axis_of_hand,
+    frames,
+    movement,
+    origin,
+)
 from numpy import cos, pi, sin
 from scipy.spatial.transform import Rotation
 
 from armik_sym.arm.catalog import ehmcs, human
 from armik_sym.arm.product_of_transforms import hand_pose, joint_frames
 from armik_sym.errors import ArmModelError
-
-UP, FORWARD, MEDIAL = np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.array([0, 1.0, 0])
-ELBOW, WRIST, HAND = 3, 5, -1  # frames whose origins are these points
-FINGERS, RADIAL, DORSAL = np.array([1.0, 0, 0]), np.array([0, -1.0, 0]), np.array([0, 0, 1.0])
 
 # Table 2, column "Model", in degrees, by movement, in the order of eq. (7): flexion first.
 RANGE_DEG = {
@@ -69,28 +80,6 @@ def test_equation_7_factors_into_turns_about_y_z_and_y():
     angles = np.stack(printed_angles(random_postures()), axis=1)
     expected = Rotation.from_euler("YZY", -angles).as_matrix()
     np.testing.assert_allclose(printed_C3(*angles.T), expected, rtol=0, atol=1e-13)
-
-
-def frames(arm, **degrees):
-    q = np.zeros(arm.dof)
-    for joint, angle in degrees.items():
-        q[arm.joint_index(joint)] = np.deg2rad(angle)
-    return joint_frames(arm.chain, q[None], arm.lengths)[0]
-
-
-def movement(arm, joint, of, posture):
-    """Direction in which a point moves, or a vector of a frame turns, when one joint increases."""
-    more = {**posture, joint: posture.get(joint, 0) + 1e-3}
-    step = of(frames(arm, **more)) - of(frames(arm, **posture))
-    return step / np.linalg.norm(step)
-
-
-def origin(frame):
-    return lambda T: T[frame][:3, 3]
-
-
-def axis_of_hand(axis):
-    return lambda T: T[HAND][:3, :3] @ axis
 
 
 def test_the_arm_hangs_at_zero_with_the_thumb_forward_and_the_palm_to_the_body():

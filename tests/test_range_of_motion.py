@@ -113,3 +113,11 @@ def test_limits_that_are_no_numbers_are_refused(upper):
     with pytest.raises(ArmModelError) as caught:
         RangeOfMotion([0.0], upper)
     assert f"upper is {upper!r}, expected numbers" in str(caught.value)
+
+
+def test_random_postures_fill_the_range_and_nothing_else():
+    rom = RangeOfMotion.from_degrees([-10, 0, 5], [20, 90, 5])
+    postures = rom.random_postures(np.random.default_rng(0), 2000)
+    assert postures.shape == (2000, 3)
+    assert (rom.margin(postures) >= 0).all()
+    assert (np.ptp(postures, axis=0) >= 0.95 * rom.width).all()

@@ -2,43 +2,25 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import sys
-import threading
-import time
-
 import numpy as np
 import pytest
 from compiled_helpers import entries, forgotten, needs_cc
+from exact_solves import EHMCS, N, check, free_solve, reference_solve
 from sample_arms import ARMS, custom
 from smooth_motions import objective, path_of, smooth_angles, smooth_path, uneven_time
 
 import armik_sym as ak
 from armik_sym.arm import DHConvention
 from armik_sym.arm.product_of_transforms import hand_pose
-from armik_sym.errors import LimitError, OptionError, ShapeError, SolverError, UnreachablePathError
+from armik_sym.errors import SolverError, UnreachablePathError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.trajectory.options import TrajectoryOptions
 
-EHMCS = ARMS["ehmcs"]
-N = 25
 WEIGHTS = (
     TrajectoryOptions.speed_weight,
     TrajectoryOptions.acceleration_weight,
     TrajectoryOptions.posture_weight,
 )
-
-
-def check(solution, *, position=1e-9, rotation=1e-9):
-    """What every exact solution promises, without any tolerance on limits."""
-    rom = solution.arm.rom
-    assert solution.ok, solution.reasons
-    assert np.all(solution.q >= rom.lower)
-    assert np.all(solution.q <= rom.upper)
-    assert solution.position_error.max() < position
-    assert solution.rotation_error.max() < rotation
-    return solution
 
 
 def no_worse_than(solution, q):
@@ -50,16 +32,12 @@ def no_worse_than(solution, q):
 
 @pytest.fixture(scope="module")
 def reference():
-    """One exact full-pose solve that several tests compare with."""
-    path, q = smooth_path(EHMCS, N, seed=1)
-    return path, q, check(ak.solve(EHMCS, path))
+    return reference_solve()
 
 
 @pytest.fixture(scope="module")
 def free():
-    """One position-only solve: four joints' worth of freedom, so rate limits can bind and still hold."""
-    path, _ = smooth_path(EHMCS, N, seed=2)
-    return HandPath(path.time, path.position), check(ak.solve(EHMCS, path, orientation="none"))
+    return free_solve()
 
 
 @pytest.mark.parametrize("orientation", ["full", "pointing", "none"])
@@ -328,169 +306,6 @@ def test_soft_tracking_keeps_rate_limits(free):
     assert solution.max_speed.max() > 0.99 * limit
 
 
-# --- what cannot be done ---------------------------------------------------------------------------
-
-
-def test_out_of_reach_names_samples_and_shortfall():
-    shoulder = np.array([0.0, 0.0, 0.143])
-    direction = np.array([0.0, 0.6, 0.8])
-    far = np.array([0.70, 0.75, 0.80])
-    with pytest.raises(UnreachablePathError) as caught:
-        ak.solve(EHMCS, HandPath([0.0, 1.0, 2.0], shoulder + far[:, None] * direction))
-    error = caught.value
-    assert error.samples.tolist() == [0, 1, 2]
-    longest = EHMCS.lengths["upper_arm"] + EHMCS.lengths["forearm"]
-    np.testing.assert_allclose(error.shortfall, far - longest, atol=1e-3)
-    assert f"sample 0 by {1000 * error.shortfall[0]:.3g} mm" in str(error)
-    assert 'tracking="soft"' in str(error)
-    assert "3 of 3 samples" in str(error)
-
-
-def test_only_the_samples_out_of_reach_are_named():
-    shoulder = np.array([0.0, 0.0, 0.143])
-    direction = np.array([0.0, 0.6, 0.8])
-    longest = EHMCS.lengths["upper_arm"] + EHMCS.lengths["forearm"]
-    distance = longest + np.array([-0.2, -0.1, -0.02, 0.02, 0.05, 0.03, -0.01, -0.05, 0.01, -0.1])
-    with pytest.raises(UnreachablePathError) as caught:
-        ak.solve(EHMCS, HandPath(np.arange(10.0), shoulder + distance[:, None] * direction))
-    assert caught.value.samples.tolist() == [3, 4, 5, 8]
-    np.testing.assert_allclose(caught.value.shortfall, [0.02, 0.05, 0.03, 0.01], atol=1e-3)
-
-
-def test_an_orientation_out_of_reach_is_told_in_degrees():
-    path, _ = smooth_path(EHMCS, 6, seed=1)
-    locked_lower, locked_upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()
-    locked_lower[4:] = locked_upper[4:] = EHMCS.rom.lower[4:]
-    locked = EHMCS.with_rom(locked_lower, locked_upper)
-    with pytest.raises(UnreachablePathError, match=r"mm and .*°") as caught:
-        ak.solve(locked, path)
-    assert np.all(caught.value.turn + caught.value.shortfall > 1e-3)
-
-
-def test_hand_faster_than_the_joints_allow():
-    path = HandPath([0.0, 1.0, 1.01, 2.0], [[0, 0.1, 0.5], [0, 0.1, 0.5], [0, 0.4, 0.5], [0, 0.4, 0.5]])
-    with pytest.raises(LimitError, match=r"between samples 1 and 2 the hand moves at 30 m/s.*max_speed"):
-        ak.solve(EHMCS, path, max_speed=1.0)
-
-
-@pytest.mark.parametrize("name", ["max_speed", "max_acceleration"])
-def test_a_rate_limit_that_contradicts_the_path_names_a_joint(name):
-    # Four joints and three coordinates, far from singular: nothing to give way.
-    arm = ARMS["ehmcs_4dof"]
-    path, _ = smooth_path(arm, 15, seed=1)
-    limit = 0.05 * getattr(ak.solve(arm, path, orientation="none"), name).max()
-    with pytest.raises(LimitError) as caught:
-        ak.solve(arm, path, orientation="none", **{name: limit, "max_iterations": 60})
-    text = str(caught.value)
-    assert name in text
-    assert any(joint in text for joint in arm.joint_names) or "between samples" in text
-    assert "slow the path down" in text
-
-
-def test_more_equations_than_joints_is_told_before_anything_runs():
-    path, _ = smooth_path(ARMS["ehmcs_5dof"], 6, seed=1)
-    with pytest.raises(OptionError, match=r"6 equations.*5 joints.*'pointing' or 'none'.*tracking=\"soft\""):
-        ak.solve(ARMS["ehmcs_5dof"], path)
-    soft = ak.solve(ARMS["ehmcs_5dof"], path, tracking="soft", position_sigma=1e-4, rotation_sigma=1e-4)
-    assert soft.position_error.max() < 1e-5
-
-
-def test_too_few_iterations_is_a_solver_error_with_the_solvers_word():
-    path, _ = smooth_path(EHMCS, 8, seed=1)
-    with pytest.raises(
-        SolverError, match=r"no attempt converged.*[Rr]aise max_iterations \(now 1\)"
-    ) as caught:
-        ak.solve(EHMCS, path, max_iterations=1)
-    assert caught.value.status == "Maximum_Iterations_Exceeded"
-
-
-def test_a_wrong_start_is_refused_before_anything_is_compiled(monkeypatch):
-    path, q = smooth_path(EHMCS, 4, seed=1)
-    monkeypatch.setattr(sys.modules["armik_sym.trajectory.solve_trajectory"], "compile", None)
-    with pytest.raises(ShapeError, match="start"):
-        ak.solve(EHMCS, path, start=q)
-
-
-# --- progress and interruption ---------------------------------------------------------------------
-
-
-def test_progress_tells_stages_and_iterations(free):
-    path, unlimited = free
-    seen: list[ak.Progress] = []
-    limit = 0.9 * unlimited.max_speed.max()
-    solution = ak.solve(EHMCS, path, max_speed=limit, progress=seen.append)
-    stages = list(dict.fromkeys(report.stage for report in seen))
-    assert stages == ["first guess", "exact tracking", "speed and acceleration limits"]
-    counted = [report.iteration for report in seen if report.stage == "exact tracking"]
-    assert counted == list(range(len(counted)))
-    limited = [report.violation for report in seen if report.stage == stages[-1]]
-    assert limited[0] > 1e-3
-    assert limited[-1] < 1e-6
-    assert solution.iterations == len(seen) - 3
-
-
-class StopError(Exception):
-    pass
-
-
-@pytest.mark.parametrize("kind", [StopError, KeyboardInterrupt])
-@pytest.mark.parametrize("stage", ["first guess", "exact tracking"])
-def test_an_exception_in_the_callback_comes_out_and_the_handler_is_restored(reference, kind, stage):
-    path = reference[0]
-    handler = signal.getsignal(signal.SIGINT)
-    calls = []
-
-    def stop(report):
-        calls.append(report)
-        if report.stage == stage and (report.iteration == 2 or stage == "first guess"):
-            raise kind("enough")
-
-    with pytest.raises(kind, match="enough"):
-        ak.solve(EHMCS, path, progress=stop)
-    assert calls[-1].stage == stage
-    assert signal.getsignal(signal.SIGINT) is handler
-    check(ak.solve(EHMCS, path))
-
-
-@pytest.mark.skipif(os.name == "nt", reason="os.kill sends no SIGINT to a thread of this process")
-@pytest.mark.parametrize("stage", ["first guess", "exact tracking"])
-def test_ctrl_c_ends_a_long_solve_soon(stage):
-    path, _ = smooth_path(EHMCS, 1200, seed=1)
-    handler = signal.getsignal(signal.SIGINT)
-    reached, interrupted_at = threading.Event(), []
-
-    def press():
-        assert reached.wait(60)
-        interrupted_at.append(time.monotonic())
-        os.kill(os.getpid(), signal.SIGINT)
-
-    def note(report):
-        if report.stage == stage:
-            reached.set()
-
-    thread = threading.Thread(target=press)
-    thread.start()
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            ak.solve(EHMCS, path, progress=note)
-    finally:
-        reached.set()
-        thread.join()
-    assert time.monotonic() - interrupted_at[0] < 5
-    assert signal.getsignal(signal.SIGINT) is handler
-
-
-def test_solving_in_other_threads(reference):
-    path, _, expected = reference
-    found = [None, None]
-
-    def work(i):
-        found[i] = ak.solve(EHMCS, path)
-
-    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    for solution in found:
-        assert np.array_equal(check(solution).q, expected.q)
+def test_without_any_weight_a_feasible_motion_is_found(reference):
+    weights = dict.fromkeys(("speed_weight", "acceleration_weight", "posture_weight"), 0.0)
+    check(ak.solve(EHMCS, reference[0], max_speed=None, **weights))

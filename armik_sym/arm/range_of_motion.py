@@ -92,6 +92,21 @@ class RangeOfMotion:
         """Upper minus lower limit, shape (dof,), in [rad]."""
         return self.upper - self.lower
 
+    def random_postures(self, rng: np.random.Generator, count: int) -> NDArray[np.float64]:
+        """Postures drawn evenly from the range: lower + u·(upper - lower), u in [0, 1).
+
+        Args:
+            rng: The random numbers.
+            count: How many.
+
+        Returns:
+            Postures, shape (count, dof), in [rad].
+
+        Source:
+            None (uniform distribution).
+        """
+        return self.lower + self.width * rng.uniform(0, 1, (count, self.dof))
+
     def margin(self, q: ArrayLike) -> NDArray[np.float64]:
         """Distance to the nearer limit: min(q - lower, upper - q), negative outside.
 

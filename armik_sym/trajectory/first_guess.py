@@ -107,7 +107,7 @@ def first_near(solver: PoseSolver, rom: RangeOfMotion, start: Array, seed: int) 
         return direct.q
     rng = np.random.default_rng(seed)
     tries = start + rng.uniform(0, 1, (_RANDOM_STARTS, 1)) * (
-        rom.lower + rom.width * rng.uniform(0, 1, (_RANDOM_STARTS, rom.dof)) - start
+        rom.random_postures(rng, _RANDOM_STARTS) - start
     )
     others = [solver.reach(0, q) for q in tries]
     found = [other.q for other in others if other.error < REACHED]

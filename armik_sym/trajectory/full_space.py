@@ -97,13 +97,13 @@ def full_space_problem(
     P = to_casadi(cost.P)
     Px = ca.mtimes(P, x)
     f = 0.5 * ca.dot(x, Px) + ca.dot(ca.DM(cost.c), x)
-    residual = ca.vec(_map(stage.residual, n)(q, *fixed))
+    residual = ca.vec(for_all_samples(stage.residual, n)(q, *fixed))
     if soft:
         residual = residual - x[n * dof :]
     A = to_casadi(rate_rows)
     g = ca.vertcat(residual, ca.mtimes(A, x[: n * dof]))
 
-    J = ca.MX(_block_diagonal(equations, dof, n), ca.vec(_map(stage.jacobian, n)(q, *fixed)))
+    J = ca.MX(_block_diagonal(equations, dof, n), ca.vec(for_all_samples(stage.jacobian, n)(q, *fixed)))
     J = ca.vertcat(J, A)
     if soft:
         below = ca.DM(A.shape[0], n * equations)
@@ -111,7 +111,7 @@ def full_space_problem(
 
     lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", g.shape[0])
     multipliers = ca.reshape(lam_g[: n * equations], equations, n)
-    curvature = ca.vec(_map(stage.hessian, n)(q, *fixed, multipliers))
+    curvature = ca.vec(for_all_samples(stage.hessian, n)(q, *fixed, multipliers))
     H = ca.triu(ca.MX(_block_diagonal(dof, dof, n), curvature))
     if soft:
         H = ca.diagcat(H, ca.DM(n * equations, n * equations))
@@ -148,8 +148,19 @@ def to_casadi(matrix: sp.sparray) -> ca.DM:
     return ca.DM(sparsity, csc.data)
 
 
-def _map(function: ca.Function, n: int) -> ca.Function:
-    # Argument 1, the segment lengths, is the same for all samples.
+def for_all_samples(function: ca.Function, n: int) -> ca.Function:
+    """A stage function evaluated for n samples; the segment lengths, argument 1, are the same for all.
+
+    Args:
+        function: Stage function (q, lengths, …) → vector.
+        n: Number of samples.
+
+    Returns:
+        Function of matrices with one column per sample, and of the lengths.
+
+    Source:
+        None (CasADi's map).
+    """
     return function.map(f"{function.name()}_map", "serial", n, [1], [])
 
 

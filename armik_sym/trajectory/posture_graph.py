@@ -99,7 +99,7 @@ def _random_postures(
     solver: PoseSolver, rom: RangeOfMotion, rng: np.random.Generator, count: int
 ) -> list[Array]:
     """Random postures; joints that cannot move the hand stay in the middle, lest they cost way."""
-    postures = rom.lower + rom.width * rng.uniform(0, 1, (count, rom.dof))
+    postures = rom.random_postures(rng, count)
     idle = solver.idle_joints(postures[0])
     postures[:, idle] = rom.middle[idle]
     return list(postures)

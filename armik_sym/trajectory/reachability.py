@@ -60,7 +60,7 @@ def find_unreachable(solver: PoseSolver, arm: Arm, n: int, q0: Array, seed: int)
         # Once many samples are lost for certain, a few tries tell whether their neighbours are, too.
         count = _STARTS if len(samples) < _THOROUGH else _FEW_STARTS
         tries = [postures[k], *nearest[-1:], arm.rom.middle]
-        tries += list(arm.rom.lower + arm.rom.width * rng.uniform(0, 1, (count, arm.dof)))
+        tries += list(arm.rom.random_postures(rng, count))
         best = nearest_posture(solver, int(k), tries)
         if best.error >= REACHED:
             samples.append(int(k))

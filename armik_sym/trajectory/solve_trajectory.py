@@ -147,7 +147,7 @@ def _is_lost(task: Task, solver: PoseSolver, k: int, guess: Guess) -> bool:
     """True if the worst sample of a guess cannot be reached from many postures either."""
     rom = task.arm.rom
     rng = np.random.default_rng(k)
-    starts = [guess.q[k], rom.middle, *(rom.lower + rom.width * rng.uniform(0, 1, (30, rom.dof)))]
+    starts = [guess.q[k], rom.middle, *rom.random_postures(rng, 30)]
     return nearest_posture(solver, k, starts).error >= REACHED
 
 

@@ -13,7 +13,12 @@ from armik_sym.arm.model import Arm
 from armik_sym.compiled.stage_functions import StageFunctions
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.symbolic import Orientation
-from armik_sym.trajectory.full_space import FullSpaceProblem, QuadraticCost, full_space_problem
+from armik_sym.trajectory.full_space import (
+    FullSpaceProblem,
+    QuadraticCost,
+    for_all_samples,
+    full_space_problem,
+)
 from armik_sym.trajectory.ipopt import Bounds
 from armik_sym.trajectory.options import TrajectoryOptions
 from armik_sym.trajectory.rates import (
@@ -139,9 +144,8 @@ class Task:
             q = np.vstack([self.first, q[1:]])
         if not soft:
             return q.ravel()
-        residual = self.stage.residual.map(len(q), "serial")
-        lengths = np.tile(self.arm.length_values[:, None], len(q))
-        errors = np.asarray(residual(q.T, lengths, self.targets.T))
+        residual = for_all_samples(self.stage.residual, len(q))
+        errors = np.asarray(residual(q.T, self.arm.length_values, self.targets.T))
         return np.concatenate([q.ravel(), np.clip(errors.T.ravel(), -10.0, 10.0)])
 
     def exceeds_rates(self, q: Array) -> bool:
@@ -187,5 +191,5 @@ class Task:
             c = np.concatenate([c, np.zeros(len(weights))])
         # At high sampling rates second differences weigh 1/h³: brought back to the size IPOPT's own
         # constants are made for. A factor on the objective changes no optimum.
-        scale = min(1.0, _LARGEST_CURVATURE / float(K.diagonal().max()))
+        scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, float(K.diagonal().max()))
         return QuadraticCost(scale * P, scale * c, scale)
