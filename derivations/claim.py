@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
+from typing import Protocol
 
 import sympy as sp
-
-from derivations.exact_zero import is_exactly_zero
-from derivations.random_points import Counterexample, first_difference, largest_difference
 
 
 class Verdict(Enum):
@@ -24,7 +23,7 @@ class Verdict(Enum):
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a check found.
+    """What a check found; the same on every machine, so no measured rounding errors in the words.
 
     Attributes:
         verdict: The verdict that follows from the check itself, whatever the claim says.
@@ -38,41 +37,58 @@ class Evidence:
 
 
 @dataclass(frozen=True, eq=False)
-class Identity:
-    """An equation between trigonometric expressions: printed side against derived side.
+class Formula:
+    r"""An equation to be read, left = right.
 
     Attributes:
-        printed: What the paper prints, SymPy matrix.
-        derived: The same quantity from the DH chain through `armik_sym.symbolic`, SymPy matrix.
-        corrected: The printed form with the smallest correction, or None if none is needed.
+        left: LaTeX of the left side, for example `B_{12}` or `\theta_5`.
+        right: The right side: a SymPy expression or matrix, or LaTeX where SymPy has no words for it.
+        relation: LaTeX of the sign between the two.
     """
 
-    printed: sp.Matrix
-    derived: sp.Matrix
-    corrected: sp.Matrix | None = None
+    left: str
+    right: sp.Expr | sp.Matrix | str
+    relation: str = "="
+
+
+class Body(Protocol):
+    """A check that knows the formulas it is about."""
 
     def check(self) -> Evidence:
-        """Prove the printed form, or else the corrected one, exactly and again in numbers."""
-        if _proved(self.printed, self.derived):
-            return Evidence(Verdict.HOLDS, _words(self.printed, self.derived))
-        counterexample = first_difference(self.printed, self.derived)
-        if self.corrected is not None and _proved(self.corrected, self.derived):
-            words = _words(self.corrected, self.derived)
-            return Evidence(Verdict.CORRECTED, words, _say(counterexample))
-        return Evidence(
-            Verdict.FALSE, "the difference has a remainder that is not zero", _say(counterexample)
-        )
+        """Reach a verdict."""
+
+    def printed_formulas(self) -> tuple[Formula, ...]:
+        """What the paper prints."""
+
+    def corrected_formulas(self) -> tuple[Formula, ...]:
+        """What it should have printed, only what differs; empty if nothing does."""
 
 
 @dataclass(frozen=True, eq=False)
 class Check:
-    """A statement that is no identity: branches, ranges, algorithms. Checked by its own code."""
+    """A statement that is neither identity nor branch: ranges, algorithms, counts. Its own code checks it.
+
+    Attributes:
+        run: The check.
+        printed: What the paper prints.
+        corrected: What it should have printed; empty if nothing differs.
+    """
 
     run: Callable[[], Evidence]
+    printed: tuple[Formula, ...] = ()
+    corrected: tuple[Formula, ...] = ()
 
     def check(self) -> Evidence:
         """Run the check."""
         return self.run()
+
+    def printed_formulas(self) -> tuple[Formula, ...]:
+        """What the paper prints."""
+        return self.printed
+
+    def corrected_formulas(self) -> tuple[Formula, ...]:
+        """What it should have printed."""
+        return self.corrected
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,10 +100,12 @@ class Claim:
         equation: Its number, "3", or "Table 4"; several equations handled as one: "28-29".
         title: What it says, in a few words.
         verdict: The verdict the ledger states; a test holds it against the check's own.
-        summary: What is printed, what is true, in one or two sentences.
+        summary: What is printed, what is true and what it means for a user, in one to three sentences.
         body: The check, or None for definitions and what cannot be checked.
+        derivation: Where the derived side comes from, or how one gets from here to there, in words.
         correction: The smallest correction in words; empty if none is needed.
         extraction: Damage done by text extraction rather than by the printer, in words.
+        definition: For claims without a body: what is printed.
     """
 
     paper: str
@@ -95,26 +113,26 @@ class Claim:
     title: str
     verdict: Verdict
     summary: str
-    body: Identity | Check | None = None
+    body: Body | None = None
+    derivation: str = ""
     correction: str = ""
-    extraction: str = field(default="")
+    extraction: str = ""
+    definition: tuple[Formula, ...] = ()
 
     def check(self) -> Evidence:
         """What the check finds; definitions and what cannot be checked find themselves."""
-        return Evidence(self.verdict, "nothing to prove") if self.body is None else self.body.check()
+        return _evidence(self)
+
+    def printed_formulas(self) -> tuple[Formula, ...]:
+        """What the paper prints."""
+        return self.definition if self.body is None else self.body.printed_formulas()
+
+    def corrected_formulas(self) -> tuple[Formula, ...]:
+        """What it should have printed, only what differs."""
+        return () if self.body is None else self.body.corrected_formulas()
 
 
-def _proved(left: sp.Matrix, right: sp.Matrix) -> bool:
-    return left.shape == right.shape and all(is_exactly_zero(a - b) for a, b in zip(left, right, strict=True))
-
-
-def _words(left: sp.Matrix, right: sp.Matrix) -> str:
-    n = len(left)
-    return (
-        f"{n} {'entry' if n == 1 else 'entries'} reduced to zero over the rationals modulo s² + c² = 1; "
-        f"largest difference at 1,000 random points {largest_difference(left, right):.1e}"
-    )
-
-
-def _say(counterexample: Counterexample | None) -> str:
-    return "" if counterexample is None else str(counterexample)
+@functools.cache
+def _evidence(claim: Claim) -> Evidence:
+    """Every claim is checked once per process, however often it is asked."""
+    return Evidence(claim.verdict, "nothing to prove") if claim.body is None else claim.body.check()

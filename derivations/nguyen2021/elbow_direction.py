@@ -7,8 +7,9 @@ from sympy import cos, pi, sin
 
 from armik_sym.arm.catalog import human
 from armik_sym.symbolic import express
-from derivations.claim import Claim, Identity, Verdict
+from derivations.claim import Claim, Verdict
 from derivations.from_casadi import to_sympy
+from derivations.identity import Identity
 from derivations.nguyen2021.chain import Q, frame
 
 PAPER = "nguyen2021"
@@ -111,7 +112,7 @@ CLAIMS = (
         "elbow-direction matrix B of the E-HMCS",
         Verdict.CORRECTED,
         "B is R_0^3, the rotation of frame 3, but for one sign; as printed it is no rotation.",
-        Identity(printed_B(), sp.Matrix(frame(3)[:3, :3]), corrected_B()),
+        Identity(printed_B(), sp.Matrix(frame(3)[:3, :3]), corrected_B(), symbol="B"),
         correction="B12 = -cos(q1)·sin(q2 - π/2)",
         extraction="the line for B22 runs on into the expression of B23; its first half is B22",
     ),
@@ -122,6 +123,6 @@ CLAIMS = (
         Verdict.HOLDS,
         "C is a rotation, Ry(-q'1) Rz(-q'2) Ry(-q'3), and equals R_0^3 diag(-1, 1, -1) of the catalogue's "
         "human arm with flexion = 180° - q'1, abduction = q'2 + 90°, internal rotation = q'3 - 90°.",
-        Identity(printed_C(), human_R_0_3()),
+        Identity(printed_C(), human_R_0_3(), symbol="C"),
     ),
 )

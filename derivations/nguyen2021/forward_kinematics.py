@@ -6,8 +6,9 @@ import sympy as sp
 from sympy import cos, pi, sin
 
 from armik_sym.arm import DHConvention
-from derivations.claim import Check, Claim, Evidence, Identity, Verdict
+from derivations.claim import Check, Claim, Evidence, Verdict
 from derivations.exact_zero import is_exactly_zero
+from derivations.identity import Identity
 from derivations.nguyen2021.chain import Q, frame
 from derivations.random_points import largest_difference
 
@@ -152,6 +153,6 @@ CLAIMS = (
         "position of the wrist",
         Verdict.HOLDS,
         "The printed coordinates are those of the origin of frame 5, with Table 4 read as above.",
-        Identity(printed_position(), frame(5)[:3, 3]),
+        Identity(printed_position(), frame(5)[:3, 3], symbol=r"(x_E, y_E, z_E)^T"),
     ),
 )

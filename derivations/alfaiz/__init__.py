@@ -1,0 +1,1 @@
+"""Al-Faiz, Ali, Miry: Human arm inverse kinematic solution based on geometric relations and optimization."""
