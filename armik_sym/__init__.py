@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from armik_sym._version import __version__
 
 if TYPE_CHECKING:
-    from armik_sym import symbolic
+    from armik_sym import elbow, symbolic
     from armik_sym.arm import (
         Arm,
         DHChain,
@@ -46,6 +46,7 @@ __all__ = [
     "__version__",
     "catalog",
     "compile",
+    "elbow",
     "emit_c",
     "load_arm",
     "load_task",
@@ -76,8 +77,8 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    if name == "symbolic":
-        return importlib.import_module("armik_sym.symbolic")
+    if name in ("elbow", "symbolic"):
+        return importlib.import_module(f"armik_sym.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'armik_sym' has no attribute {name!r}")
     value = getattr(importlib.import_module(_HOME_OF[name]), name)

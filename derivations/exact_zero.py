@@ -82,16 +82,16 @@ def _reduced(numerator: sp.Expr, relations: list[tuple[sp.Symbol, sp.Expr]]) -> 
 
 
 def _as_sines(expression: sp.Expr) -> sp.Expr:
-    def over_cosine(angle: sp.Expr) -> sp.Expr:
-        return sp.sin(angle) / sp.cos(angle)
-
-    return sp.expand_trig(expression.replace(sp.tan, over_cosine))
+    """Sums of angles first, as SymPy writes tan(x - π/4) as a cotangent and sin of it with √2."""
+    expanded = sp.expand_trig(expression)
+    expanded = expanded.replace(sp.tan, lambda x: sp.sin(x) / sp.cos(x))
+    return sp.expand_trig(expanded.replace(sp.cot, lambda x: sp.cos(x) / sp.sin(x)))
 
 
 def _without_fractions_of_angles(expression: sp.Expr, others: list[sp.Expr]) -> tuple[sp.Expr, list[sp.Expr]]:
     """Half and quarter angles as whole ones: x becomes n·x where x/n occurs."""
     shares: dict[sp.Symbol, int] = {}
-    for call in sp.Tuple(expression, *others).atoms(sp.sin, sp.cos, sp.tan):
+    for call in sp.Tuple(expression, *others).atoms(sp.sin, sp.cos, sp.tan, sp.cot):
         for x in call.args[0].free_symbols:
             share = sp.expand(call.args[0]).coeff(x)
             if share.is_Rational:

@@ -18,6 +18,7 @@ _FUNCTIONS = {
     "sin": ca.sin,
     "cos": ca.cos,
     "tan": ca.tan,
+    "cot": lambda x: 1 / ca.tan(x),
     "asin": ca.asin,
     "acos": ca.acos,
     "atan": ca.atan,

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import casadi as ca
 import sympy as sp
 from sympy import cos, pi, sin
 
-from armik_sym.arm.catalog import human
-from armik_sym.symbolic import express
+from armik_sym.symbolic.elbow_direction import device_elbow_direction, human_elbow_direction
 from derivations.claim import Claim, Verdict
 from derivations.from_casadi import to_sympy
 from derivations.identity import Identity
-from derivations.nguyen2021.chain import Q, frame
+from derivations.nguyen2021.chain import Q
 
 PAPER = "nguyen2021"
 
@@ -87,10 +87,21 @@ def printed_C() -> sp.Matrix:
     )
 
 
-def human_R_0_3() -> sp.Matrix:
-    """R_0^3 of the catalogue's human arm in the angles of eq. (7), times diag(-1, 1, -1).
+def device_B() -> sp.Matrix:
+    """B as derived: R_0^3 of the E-HMCS, the matrix `armik_sym.elbow` uses.
 
-    flexion = 180° - q'1, abduction = q'2 + 90°, internal rotation = q'3 - 90°.
+    Returns:
+        SymPy matrix of shape (3, 3).
+
+    Source:
+        Nguyen 2021, Table 4, through `armik_sym.symbolic`.
+    """
+    q = ca.SX.sym("q", 3)
+    return to_sympy(device_elbow_direction(q), [q], [Q[:3]])
+
+
+def human_C() -> sp.Matrix:
+    """C as derived: H R_0^3 H of the catalogue's human arm, H = diag(-1, 1, -1).
 
     Returns:
         SymPy matrix of shape (3, 3).
@@ -98,11 +109,8 @@ def human_R_0_3() -> sp.Matrix:
     Source:
         Nguyen 2021, eq. 6-7, through `armik_sym.symbolic`.
     """
-    expressions = express(human())
-    angles = [pi - P[0], P[1] + pi / 2, P[2] - pi / 2, *[sp.Integer(0)] * 4]
-    lengths = [sp.Integer(0)] * 3
-    T = to_sympy(expressions.frames[3], [expressions.q, expressions.lengths], [angles, lengths])
-    return sp.Matrix(T[:3, :3] * sp.diag(-1, 1, -1))
+    q_human = ca.SX.sym("q_human", 3)
+    return to_sympy(human_elbow_direction(q_human), [q_human], [P])
 
 
 CLAIMS = (
@@ -111,9 +119,12 @@ CLAIMS = (
         "4-5",
         "elbow-direction matrix B of the E-HMCS",
         Verdict.CORRECTED,
-        "B is R_0^3, the rotation of frame 3, but for one sign; as printed it is no rotation.",
-        Identity(printed_B(), sp.Matrix(frame(3)[:3, :3]), corrected_B(), symbol="B"),
-        correction="B12 = -cos(q1)·sin(q2 - π/2)",
+        "B is the rotation R_0^3 of frame 3, but for the sign of B12; as printed it is no rotation at all, "
+        "so a routine that orthonormalises it hides the misprint. Its second column points from the elbow "
+        "to the shoulder.",
+        Identity(printed_B(), device_B(), corrected_B(), symbol="B"),
+        derivation="Rotation of the third frame of Table 4, rows read as standard ones.",
+        correction="B12 = -cos(q1)·sin(q2 - π/2), that is cos(q1)·cos(q2)",
         extraction="the line for B22 runs on into the expression of B23; its first half is B22",
     ),
     Claim(
@@ -121,8 +132,11 @@ CLAIMS = (
         "6-7",
         "elbow-direction matrix C of the human arm",
         Verdict.HOLDS,
-        "C is a rotation, Ry(-q'1) Rz(-q'2) Ry(-q'3), and equals R_0^3 diag(-1, 1, -1) of the catalogue's "
-        "human arm with flexion = 180° - q'1, abduction = q'2 + 90°, internal rotation = q'3 - 90°.",
-        Identity(printed_C(), human_R_0_3(), symbol="C"),
+        "C is a rotation, Ry(-q'1) Rz(-q'2) Ry(-q'3): flexion about y comes first, then abduction, then the "
+        "turn of the upper arm. In anatomical angles: flexion = -q'1, abduction = q'2 + 90°, internal "
+        "rotation = q'3 - 90°.",
+        Identity(printed_C(), human_C(), symbol="C"),
+        derivation="H R_0^3 H of the catalogue's human arm, H = diag(-1, 1, -1) a half turn about y: the "
+        "zero of q' is the arm hanging down, in a base that is turned by half a turn.",
     ),
 )

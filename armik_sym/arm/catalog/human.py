@@ -23,8 +23,9 @@ _SHOULDER_UPPER_DEG = (180.0, 175.0, 70.0)
 def human(upper_arm: float = 0.28, forearm: float = 0.26, hand: float = 0.19) -> Arm:
     r"""The human-arm model: flexion first, then abduction; base at the shoulder centre.
 
-    R_0^3 = C_3(q') · diag(-1, 1, -1) with C_3 of eq. (7), which is Ry(-q'1) Rz(-q'2) Ry(-q'3), and
-    q'1 = 180° - flexion, q'2 = abduction - 90°, q'3 = internal rotation + 90°.
+    R_0^3 = H C_3(q') H with C_3 of eq. (7), which is Ry(-q'1) Rz(-q'2) Ry(-q'3), H = diag(-1, 1, -1), and
+    q'1 = -flexion, q'2 = abduction - 90°, q'3 = internal rotation + 90°. With the q' of eq. (8) this is
+    R_0^3 of the E-HMCS: `armik_sym.elbow.human_posture` converts (ledger: nguyen2021 6-7 and 8).
 
     Printed, used, and why:
 
@@ -32,10 +33,9 @@ def human(upper_arm: float = 0.28, forearm: float = 0.26, hand: float = 0.19) ->
       turns about y, z, y in the base frame of the E-HMCS (x up, z forward, y right): flexion comes
       first, abduction second, the reverse of the E-HMCS ("different order of the first two joints",
       §2.3). From the elbow on, the rows of Table 4 apply ("will coincide").
-    - *Zero.* In the angles q' of eq. (7) the hanging arm is (180°, -90°, 90°): at the very end of the
-      range ±180° that Table 2 gives. The joints here count from the hanging arm instead, as Table 2's
-      limits do; the shift is the line above. diag(-1, 1, -1) is the half turn about the upper arm by
-      which eq. (8) differs from "B3 = C3".
+    - *Zero.* In the angles q' of eq. (8) the hanging arm is (0°, -90°, 90°). The joints here count from
+      the hanging arm, as Table 2's limits do; the shift is the line above. H is the half turn about y
+      (in the base and about the upper arm) by which what eq. (8) solves differs from "B3 = C3".
     - *Range of motion.* Table 2, column "Model" (its column "Human" prints 165/-50 for flexion, where
       the model has ±180, and 75/-70 for the wrist, where it has ±73), as printed, but for the wrist
       deviation: the wrist rows of Table 4 count towards ulnar, so "radial 20 / ulnar -40" reads
