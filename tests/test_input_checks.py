@@ -10,6 +10,7 @@ from sample_arms import ARMS, custom
 from smooth_motions import path_of, smooth_angles
 
 from armik_sym.arm import DHConvention
+from armik_sym.arm.start_posture import check_start
 from armik_sym.errors import LimitError, OptionError, ShapeError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.solution.motion_rates import joint_acceleration, joint_speed
@@ -17,7 +18,6 @@ from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.input_checks import (
     check_enough_joints,
     check_hand_speed,
-    check_start,
     raise_too_fast,
 )
 

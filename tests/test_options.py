@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 from sample_arms import ARMS
 from smooth_motions import path_of, smooth_angles
 
+from armik_sym.arm.rate_limit import rate_limit
 from armik_sym.errors import LimitError, OptionError
 from armik_sym.symbolic import Orientation
-from armik_sym.trajectory.options import TrajectoryOptions, rate_limit
+from armik_sym.trajectory.options import TrajectoryOptions
 
 ARM = ARMS["human"]
 WEIGHTS = ("speed_weight", "acceleration_weight", "posture_weight")

@@ -115,13 +115,29 @@ def lanes_batch(function: ca.Function, name: str) -> str:
         None (packaging).
     """
     n_lengths = function.numel_in(1)
-    return _FUNCTION.format(function=c_function(function, f"{name}_lanes", constant=_splat)) + _LOOP.format(
+    return lanes_function(function, name) + _LOOP.format(
         name=name,
         dof=function.numel_in(0),
         size=function.numel_out(0),
         n_lengths=n_lengths,
         segments=max(1, n_lengths),
     )
+
+
+def lanes_function(function: ca.Function, name: str) -> str:
+    """C source of a function on vectors, several postures at once, where vector units can be used.
+
+    Args:
+        function: A CasADi Function (q, lengths) → vector that fits lanes.
+        name: Name of the plain C function.
+
+    Returns:
+        C source; the function is `<name>_lanes`, there if `LANES > 1`.
+
+    Source:
+        None (packaging).
+    """
+    return _FUNCTION.format(function=c_function(function, f"{name}_lanes", constant=_splat))
 
 
 def _splat(value: float, precision: Precision) -> str:

@@ -7,12 +7,11 @@ import numbers
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from armik_sym.arm.model import Arm
-from armik_sym.errors import LimitError, OptionError
+from armik_sym.errors import OptionError
 from armik_sym.motion.hand_path import HandPath
+from armik_sym.solution.tracked_orientation import tracked_orientation
 from armik_sym.symbolic import Orientation
 
 
@@ -93,64 +92,8 @@ class TrajectoryOptions:
         return default if self.rotation_tolerance is None else self.rotation_tolerance
 
     def orientation_for(self, path: HandPath) -> Orientation:
-        """What of the path's orientation is tracked.
-
-        Args:
-            path: The hand path.
-
-        Returns:
-            The orientation mode.
-
-        Raises:
-            OptionError: If the choice is unknown, or needs rotations the path does not have.
-
-        Source:
-            None (bookkeeping).
-        """
-        wanted = self.orientation or ("none" if path.rotation is None else "full")
-        valid = [mode.value for mode in Orientation]
-        if wanted not in valid:
-            raise OptionError(f"orientation is {wanted!r}: valid are {', '.join(valid)}")
-        if wanted != "none" and path.rotation is None:
-            raise OptionError(
-                f"orientation is {wanted!r} but the path has no rotations: give them, or use "
-                'orientation="none"'
-            )
-        return Orientation(wanted)
-
-
-def rate_limit(name: str, value: float | ArrayLike | None, arm: Arm) -> NDArray[np.float64]:
-    """A speed or acceleration limit as one number per joint: |rate| ≤ limit.
-
-    Args:
-        name: Name of the option, for messages.
-        value: One number, one per joint, or None for no limit.
-        arm: The arm.
-
-    Returns:
-        Limits, shape (dof,), in [rad/s] or [rad/s²]; infinite where there is none.
-
-    Raises:
-        LimitError: If a limit is not positive, or their number does not fit the arm.
-
-    Source:
-        None (bookkeeping).
-    """
-    try:
-        limits = np.asarray(np.inf if value is None else value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise LimitError(f"{name} is {value!r}, expected one number or {arm.dof}, one per joint") from None
-    if limits.ndim > 1 or (limits.ndim == 1 and limits.shape != (arm.dof,)):
-        raise LimitError(f"{name} has shape {limits.shape}, expected one number or {arm.dof}, one per joint")
-    limits = np.broadcast_to(limits, (arm.dof,)).copy()
-    bad = np.flatnonzero(~(limits > 0))
-    if bad.size:
-        i = int(bad[0])
-        raise LimitError(
-            f"{name} of joint {arm.joint_names[i]!r} is {limits[i]:g}: -{name} ≤ rate ≤ {name} leaves no "
-            "motion at all; give a positive number, or None for no limit"
-        )
-    return limits
+        """What of the path's orientation is tracked, see `tracked_orientation`."""
+        return tracked_orientation(self.orientation, path)
 
 
 def _check(name: str, value: float, *, zero: bool) -> None:

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.model import Arm
+from armik_sym.arm.rate_limit import rate_limit
+from armik_sym.arm.start_posture import check_start
 from armik_sym.compiled.backend import Backend
 from armik_sym.compiled.kinematics import compile
 from armik_sym.compiled.stage_functions import compile_stage
@@ -21,13 +23,8 @@ from armik_sym.trajectory.attempts import Attempt, attempts
 from armik_sym.trajectory.damped_least_squares import REACHED, PoseSolver
 from armik_sym.trajectory.first_guess import first_near, guesses
 from armik_sym.trajectory.guess import Guess
-from armik_sym.trajectory.input_checks import (
-    check_enough_joints,
-    check_hand_speed,
-    check_start,
-    raise_too_fast,
-)
-from armik_sym.trajectory.options import TrajectoryOptions, rate_limit
+from armik_sym.trajectory.input_checks import check_enough_joints, check_hand_speed, raise_too_fast
+from armik_sym.trajectory.options import TrajectoryOptions
 from armik_sym.trajectory.pose_error import SampleError
 from armik_sym.trajectory.reachability import find_unreachable, nearest_posture, raise_unreachable
 from armik_sym.trajectory.task import Task

@@ -1,0 +1,1 @@
+"""One pose after another: Pro-ISADE, ISADE, Levenberg-Marquardt, Sugihara and Al-Faiz."""
