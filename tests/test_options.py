@@ -13,6 +13,7 @@ from smooth_motions import path_of, smooth_angles
 
 from armik_sym.arm.rate_limit import rate_limit
 from armik_sym.errors import LimitError, OptionError
+from armik_sym.solution.tracked_orientation import tracked_orientation
 from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.options import TrajectoryOptions
 
@@ -60,16 +61,16 @@ def test_tracking_lists_the_valid_words(value):
 def test_orientation_follows_the_path_unless_said():
     turned = path_of(ARM, smooth_angles(ARM, 3, 0))
     straight = path_of(ARM, smooth_angles(ARM, 3, 0), turned=False)
-    assert TrajectoryOptions().orientation_for(turned) is Orientation.FULL
-    assert TrajectoryOptions().orientation_for(straight) is Orientation.NONE
+    assert tracked_orientation(None, turned) is Orientation.FULL
+    assert tracked_orientation(None, straight) is Orientation.NONE
     for mode in Orientation:
-        assert TrajectoryOptions(orientation=mode.value).orientation_for(turned) is mode
-    assert TrajectoryOptions(orientation="none").orientation_for(straight) is Orientation.NONE
+        assert tracked_orientation(mode.value, turned) is mode
+    assert tracked_orientation("none", straight) is Orientation.NONE
     for word in ("full", "pointing"):
         with pytest.raises(OptionError, match=rf"{word}.*no rotations.*orientation=\"none\""):
-            TrajectoryOptions(orientation=word).orientation_for(straight)
+            tracked_orientation(word, straight)
     with pytest.raises(OptionError, match=r"'both': valid are full, pointing, none"):
-        TrajectoryOptions(orientation="both").orientation_for(turned)
+        tracked_orientation("both", turned)
 
 
 def test_tolerances_follow_the_tracking_unless_given():

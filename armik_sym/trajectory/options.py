@@ -10,9 +10,6 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from armik_sym.errors import OptionError
-from armik_sym.motion.hand_path import HandPath
-from armik_sym.solution.tracked_orientation import tracked_orientation
-from armik_sym.symbolic import Orientation
 
 
 @dataclass(frozen=True)
@@ -90,10 +87,6 @@ class TrajectoryOptions:
         """Rotation error up to which a solution is ok, in [rad]."""
         default = 1e-9 if self.tracking == "exact" else math.radians(5.0)
         return default if self.rotation_tolerance is None else self.rotation_tolerance
-
-    def orientation_for(self, path: HandPath) -> Orientation:
-        """What of the path's orientation is tracked, see `tracked_orientation`."""
-        return tracked_orientation(self.orientation, path)
 
 
 def _check(name: str, value: float, *, zero: bool) -> None:

@@ -19,6 +19,7 @@ from armik_sym.errors import SolverError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.progress import Progress, ProgressCallback
 from armik_sym.solution import Requirements, Solution, Timing
+from armik_sym.solution.tracked_orientation import tracked_orientation
 from armik_sym.trajectory.attempts import Attempt, attempts
 from armik_sym.trajectory.damped_least_squares import REACHED, PoseSolver
 from armik_sym.trajectory.first_guess import first_near, guesses
@@ -74,7 +75,7 @@ def solve_trajectory(
         None (this package); compare Nguyen 2021, §3.3, which solves point after point.
     """
     began = time.perf_counter()
-    orientation = options.orientation_for(path)
+    orientation = tracked_orientation(options.orientation, path)
     if options.tracking == "exact":
         check_enough_joints(arm, orientation)
     max_speed = rate_limit("max_speed", options.max_speed, arm)
