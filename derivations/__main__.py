@@ -1,13 +1,17 @@
-"""`python -m derivations`: the ledger on the terminal."""
+"""`python -m derivations`: the ledger on the terminal, or as `docs/ledger.md`."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
-from derivations.claim import Claim, Evidence
-from derivations.ledger import all_claims
+from derivations import plain_text
+from derivations.claim import Claim
+from derivations.ledger import EQUATIONS, PAPERS, all_claims, covered
+
+PAGE = Path(__file__).resolve().parent.parent / "docs" / "ledger.md"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -22,35 +26,54 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Source:
         None (command line).
     """
-    parser = argparse.ArgumentParser(prog="python -m derivations", description=__doc__)
-    parser.add_argument("--paper", choices=sorted({claim.paper for claim in all_claims()}))
-    parser.add_argument("--equation", help='one equation, for example "3" or "Table 4"')
-    parser.add_argument("--explain", action="store_true", help="proof, correction and counterexample, too")
-    options = parser.parse_args(arguments)
+    options = _parser().parse_args(arguments)
+    if options.markdown:
+        from derivations.markdown import page
+
+        PAGE.write_text(page(), encoding="utf-8")
+        sys.stdout.write(f"wrote docs/{PAGE.name}\n")
+        return 0
+    claims = _selected(options.paper, options.equation)
+    if not claims:
+        sys.stderr.write(_nothing_found(options.paper, options.equation))
+        return 2
     wrong = 0
-    for claim in all_claims():
-        if options.paper not in (None, claim.paper) or options.equation not in (None, claim.equation):
-            continue
+    for claim in claims:
         evidence = claim.check()
         wrong += evidence.verdict is not claim.verdict
-        sys.stdout.write(_lines(claim, evidence, explain=options.explain))
+        sys.stdout.write(plain_text.line(claim, evidence))
+        if options.explain:
+            sys.stdout.write(plain_text.explanation(claim, evidence))
+        sys.stdout.flush()
     return 1 if wrong else 0
 
 
-def _lines(claim: Claim, evidence: Evidence, *, explain: bool) -> str:
-    text = f"{claim.paper:11s} {claim.equation:10s} {evidence.verdict.value:24s} {claim.title}\n"
-    if evidence.verdict is not claim.verdict:
-        text += f"    THE LEDGER SAYS {claim.verdict.value!r}\n"
-    if explain:
-        parts = {
-            "says": claim.summary,
-            "correction": claim.correction,
-            "extraction": claim.extraction,
-            "proof": evidence.proof,
-            "counterexample": evidence.counterexample,
-        }
-        text += "".join(f"    {name}: {part}\n" for name, part in parts.items() if part) + "\n"
-    return text
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m derivations", description=__doc__)
+    parser.add_argument("--paper", choices=sorted(PAPERS))
+    parser.add_argument("--equation", help='one equation or table, for example 3 or "Table 4"')
+    parser.add_argument(
+        "--explain", action="store_true", help="printed form, derivation, correction, proof, counterexample"
+    )
+    parser.add_argument("--markdown", action="store_true", help="write docs/ledger.md instead")
+    return parser
+
+
+def _selected(paper: str | None, equation: str | None) -> list[Claim]:
+    return [
+        claim
+        for claim in all_claims()
+        if paper in (None, claim.paper)
+        and (equation is None or equation.lower() in {name.lower() for name in (*covered(claim), claim.equation)})
+    ]
+
+
+def _nothing_found(paper: str | None, equation: str | None) -> str:
+    papers = [paper] if paper else list(PAPERS)
+    extra = [claim.equation for claim in all_claims() if claim.paper in papers and covered(claim)[0] not in EQUATIONS[claim.paper]]
+    last = "; ".join(f"{name}: 1 to {max(int(e) for e in EQUATIONS[name] if e.isdigit())}" for name in papers)
+    tables = ", ".join(sorted({e for name in papers for e in EQUATIONS[name] if not e.isdigit()}))
+    return f"no equation {equation!r}; there are {last}; {tables}" + (f"; {', '.join(extra)}\n" if extra else "\n")
 
 
 if __name__ == "__main__":

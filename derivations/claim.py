@@ -19,6 +19,7 @@ class Verdict(Enum):
     FALSE = "does not hold"
     DEFINITION = "definition"
     NOT_CHECKABLE = "not checkable"
+    ADDED = "not in the paper, shown here"
 
 
 @dataclass(frozen=True)

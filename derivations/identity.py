@@ -59,7 +59,7 @@ class Identity:
         if len(self.corrected) == 1:
             return (Formula(self.symbol, self.corrected[0]),)
         return tuple(
-            Formula(f"{self.symbol}[{i + 1}, {j + 1}]", self.corrected[i, j])
+            Formula(f"{self.symbol}_{{{i + 1}{j + 1}}}", self.corrected[i, j])
             for i in range(self.corrected.rows)
             for j in range(self.corrected.cols)
             if self.corrected[i, j] != self.printed[i, j]
@@ -71,7 +71,7 @@ class Identity:
         pairs = zip(form, self.derived, strict=True)
         return (
             all(is_exactly_zero(a - b, self.roots) for a, b in pairs)
-            and largest_difference(form, self.derived, self.roots) < _ROUNDING
+            and largest_difference(form, self.derived, self.roots, relative=True) < _ROUNDING
         )
 
     def _damage(self) -> str:

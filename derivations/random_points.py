@@ -56,17 +56,22 @@ class Counterexample:
 
 
 def largest_difference(
-    left: sp.Matrix, right: sp.Matrix, roots: Mapping[sp.Symbol, sp.Expr] = _NO_ROOTS
+    left: sp.Matrix,
+    right: sp.Matrix,
+    roots: Mapping[sp.Symbol, sp.Expr] = _NO_ROOTS,
+    *,
+    relative: bool = False,
 ) -> float:
-    """Largest difference of two matrices at random points, measured against the size of the entries.
+    """Largest difference of two matrices at random points, |a - b|.
 
     Args:
         left: SymPy matrix.
         right: SymPy matrix of the same shape.
         roots: For every symbol that stands for a square root, the expression it is the root of.
+        relative: Divide by 1 + |a|.
 
     Returns:
-        The largest |a - b| / (1 + |a|), NaN if an entry is not a number.
+        The largest difference, NaN if an entry is not a number.
 
     Source:
         None (random testing).
@@ -74,7 +79,7 @@ def largest_difference(
     symbols, function = _compiled(left, right, roots)
     points = np.random.default_rng(0).uniform(-np.pi, np.pi, (_POINTS, len(symbols)))
     a, b = (np.asarray(side) for side in (function(points.T) if symbols else function(0)))
-    return float((np.abs(a - b) / (1 + np.abs(a))).max())
+    return float((np.abs(a - b) / (1 + relative * np.abs(a))).max())
 
 
 def first_difference(

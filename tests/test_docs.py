@@ -19,7 +19,7 @@ import armik_sym as ak
 REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = REPOSITORY / "armik_sym"
 SOURCES = sorted(PACKAGE.rglob("*.py"))
-EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-4]_*.py"))
+EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-46]_*.py"))
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 

@@ -243,7 +243,20 @@ def simplified() -> tuple[Formula, ...]:
 
 
 def _printed() -> tuple[Formula, ...]:
-    return tuple(Formula(f"q'_{k + 1}", angle) for k, angle in enumerate(printed().angles()))
+    """Eq. (8) with letters for what occurs often, so that it can be read."""
+    t1, t2, t3, u = sp.symbols("t_1 t_2 t_3 u")
+    halves = {sp.tan(q1 / 2): t1, sp.tan(q2 / 2): t2, sp.tan(q3 / 2): t3}
+    # SymPy turns tan(x - π/4) into -cot(x + π/4).
+    letters = {**halves, sp.cot(q2 / 2 + sp.pi / 4): -u}
+    form = conversion(sp.Symbol("W"), sp.Symbol("V"))
+    angles = [Formula(f"q'_{k + 1}", angle.subs(letters)) for k, angle in enumerate(form.angles())]
+    return (
+        *angles,
+        Formula("W", sqrt(under_root_1(2)).subs(letters)),
+        Formula("V", root_2()),
+        *(Formula(str(letter), tangent) for tangent, letter in halves.items()),
+        Formula("u", r"\tan\left(\frac{q_2}{2} - \frac{\pi}{4}\right)"),
+    )
 
 
 CLAIMS = (

@@ -28,20 +28,21 @@ def printed_B() -> sp.Matrix:
         Nguyen 2021, eq. 4-5.
     """
     q1, q2, q3 = Q[:3]
-    t = q2 - pi / 2
+    # Not evaluated, so that it is shown as printed; SymPy would make -cos(q2) of it.
+    s, c = sin(q2 - pi / 2, evaluate=False), cos(q2 - pi / 2, evaluate=False)
     return sp.Matrix(
         [
             [
-                cos(q1) * cos(q3) * cos(t) - sin(q1) * sin(q3),
-                cos(q1) * sin(t),
-                -cos(q3) * sin(q1) - cos(q1) * cos(t) * sin(q3),
+                cos(q1) * cos(q3) * c - sin(q1) * sin(q3),
+                cos(q1) * s,
+                -cos(q3) * sin(q1) - cos(q1) * c * sin(q3),
             ],
             [
-                cos(q1) * sin(q3) + cos(q3) * cos(t) * sin(q1),
-                -sin(q1) * sin(t),
-                cos(q1) * cos(q3) - cos(t) * sin(q1) * sin(q3),
+                cos(q1) * sin(q3) + cos(q3) * c * sin(q1),
+                -sin(q1) * s,
+                cos(q1) * cos(q3) - c * sin(q1) * sin(q3),
             ],
-            [-cos(q3) * sin(t), -cos(t), sin(q3) * sin(t)],
+            [-cos(q3) * s, -c, sin(q3) * s],
         ]
     )
 

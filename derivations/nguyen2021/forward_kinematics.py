@@ -6,7 +6,7 @@ import sympy as sp
 from sympy import cos, pi, sin
 
 from armik_sym.arm import DHConvention
-from derivations.claim import Check, Claim, Evidence, Verdict
+from derivations.claim import Check, Claim, Evidence, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.identity import Identity
 from derivations.nguyen2021.chain import Q, frame
@@ -62,22 +62,19 @@ def printed_position() -> sp.Matrix:
     """
     q1, q2, q3, q4 = _q1, _q2, _q3, _q4
     upper = sp.Rational(2869, 10)
+    # Not evaluated, so that it is shown as printed; SymPy would make -cos(q2) of it.
+    s2, c2 = sin(q2 - pi / 2, evaluate=False), cos(q2 - pi / 2, evaluate=False)
     x = (
-        upper * cos(q1) * sin(q2 - pi / 2)
-        - 336 * sin(q4) * (sin(q1) * sin(q3) - cos(q1) * cos(q3) * cos(q2 - pi / 2))
-        + 336 * cos(q1) * cos(q4) * sin(q2 - pi / 2)
+        upper * cos(q1) * s2
+        - 336 * sin(q4) * (sin(q1) * sin(q3) - cos(q1) * cos(q3) * c2)
+        + 336 * cos(q1) * cos(q4) * s2
     )
     y = (
-        upper * sin(q1) * sin(q2 - pi / 2)
-        + 336 * sin(q4) * (cos(q1) * sin(q3) + cos(q3) * cos(q2 - pi / 2) * sin(q1))
-        + 336 * cos(q4) * sin(q1) * sin(q2 - pi / 2)
+        upper * sin(q1) * s2
+        + 336 * sin(q4) * (cos(q1) * sin(q3) + cos(q3) * c2 * sin(q1))
+        + 336 * cos(q4) * sin(q1) * s2
     )
-    z = (
-        upper * cos(q2 - pi / 2)
-        + 336 * cos(q4) * cos(q2 - pi / 2)
-        - 336 * cos(q3) * sin(q4) * sin(q2 - pi / 2)
-        + 143
-    )
+    z = upper * c2 + 336 * cos(q4) * c2 - 336 * cos(q3) * sin(q4) * s2 + 143
     return sp.Matrix([x, y, z])
 
 
@@ -119,6 +116,22 @@ def _check_table() -> Evidence:
     )
 
 
+# Rows of θ, d [mm], a [mm], α [°] as printed.
+_TABLE_4 = Formula(
+    r"(\theta,\ d,\ a,\ \alpha)",
+    sp.Matrix(
+        [
+            [sp.Symbol("q_1"), 143, 0, 90],
+            [90 - sp.Symbol("q_2"), 7, 0, -90],
+            [sp.Symbol("q_3"), sp.Rational(2869, 10), 0, -90],
+            [sp.Symbol("q_4"), 0, 0, 90],
+            [90 + sp.Symbol("q_5"), 336, 0, 90],
+            [90 + sp.Symbol("q_6"), 0, 0, -90],
+            [sp.Symbol("q_7"), 0, 0, 0],
+        ]
+    ),
+)
+
 CLAIMS = (
     Claim(
         PAPER,
@@ -127,7 +140,13 @@ CLAIMS = (
         Verdict.CORRECTED,
         "Printed in the layout of the modified (proximal) convention, but no rigid transform: its third row "
         "has a wrong factor and two wrong signs. The rest of the paper follows the standard convention.",
-        Check(_check_transform),
+        Check(
+            _check_transform,
+            (Formula("T_{i-1}^i", printed_transform()),),
+            (Formula("T_{i-1}^i", corrected_transform()),),
+        ),
+        derivation="The first two rows are those of Craig's modified transform; the third has to be normal "
+        "to them. Read as modified rows, Table 4 misses eq. (3) by far (see there).",
         correction="third row sθ·sα, cθ·sα, cα, d·cα (a modified row); for Table 4, a standard row",
     ),
     Claim(
@@ -137,7 +156,9 @@ CLAIMS = (
         Verdict.CORRECTED,
         "Read as standard rows and with d = 0 in row 2 the table gives eq. (3) exactly; no other reading "
         "does.",
-        Check(_check_table),
+        Check(_check_table, (_TABLE_4,), (Formula("d_2", sp.Integer(0)),)),
+        derivation="All four readings (standard or modified rows, d = 0 or 7 mm in row 2) are put through "
+        "`armik_sym.symbolic` and compared with eq. (3).",
         correction="row 2: d = 0 instead of 7 mm; rows follow the standard convention, not eq. (1)",
     ),
     Claim(
@@ -145,7 +166,8 @@ CLAIMS = (
         "2",
         "the chain up to the wrist",
         Verdict.DEFINITION,
-        "T_0^5 is the product of the first five row transforms.",
+        "T_0^5 is the product of the first five row transforms; its last column is the wrist.",
+        definition=(Formula("T_0^5", r"T_0^1 \times T_1^2 \times T_2^3 \times T_3^4 \times T_4^5"),),
     ),
     Claim(
         PAPER,
@@ -153,6 +175,7 @@ CLAIMS = (
         "position of the wrist",
         Verdict.HOLDS,
         "The printed coordinates are those of the origin of frame 5, with Table 4 read as above.",
-        Identity(printed_position(), frame(5)[:3, 3], symbol=r"(x_E, y_E, z_E)^T"),
+        Identity(printed_position(), frame(5)[:3, 3], symbol="p"),
+        derivation="p = (x_E, y_E, z_E) in millimetres: last column of T_0^5, standard rows, d = 0 in row 2.",
     ),
 )
