@@ -63,17 +63,21 @@ def _selected(paper: str | None, equation: str | None) -> list[Claim]:
     return [
         claim
         for claim in all_claims()
-        if paper in (None, claim.paper)
-        and (equation is None or equation.lower() in {name.lower() for name in (*covered(claim), claim.equation)})
+        if paper in (None, claim.paper) and (equation is None or _is_about(claim, equation))
     ]
 
 
+def _is_about(claim: Claim, equation: str) -> bool:
+    return equation.lower() in {name.lower() for name in (*covered(claim), claim.equation)}
+
+
 def _nothing_found(paper: str | None, equation: str | None) -> str:
-    papers = [paper] if paper else list(PAPERS)
-    extra = [claim.equation for claim in all_claims() if claim.paper in papers and covered(claim)[0] not in EQUATIONS[claim.paper]]
-    last = "; ".join(f"{name}: 1 to {max(int(e) for e in EQUATIONS[name] if e.isdigit())}" for name in papers)
-    tables = ", ".join(sorted({e for name in papers for e in EQUATIONS[name] if not e.isdigit()}))
-    return f"no equation {equation!r}; there are {last}; {tables}" + (f"; {', '.join(extra)}\n" if extra else "\n")
+    known = []
+    for name in [paper] if paper else list(PAPERS):
+        last = max(int(number) for number in EQUATIONS[name] if number.isdigit())
+        others = [claim.equation for claim in all_claims() if claim.paper == name]
+        known.append(", ".join([f"{name}: 1 to {last}", *(e for e in others if not e[0].isdigit())]))
+    return f"no equation {equation!r}; there are {'; '.join(known)}\n"
 
 
 if __name__ == "__main__":

@@ -23,9 +23,9 @@ _SYMBOLS = {p: f"q'_{k + 1}" for k, p in enumerate(P)}
 
 _HEAD = """# The ledger: every numbered equation of both papers, checked by machine
 
-Written by `python -m derivations --markdown`; a test holds it against the code in `derivations/`. Nothing here
-is typed by hand twice: the true side of every equation comes from the DH chain through `armik_sym.symbolic`,
-and every verdict is reached by its check, which the tests also show to be able to fail.
+Written by `python -m derivations --markdown`; a test holds it against the code in `derivations/`. The true
+side of every equation comes from the DH chain through `armik_sym.symbolic`; every verdict is reached by its
+check, which the tests also show to be able to fail.
 
 **How to read it.** "Printed" is the equation as the paper prints it. Both papers were read as text extracted
 from print; what extraction damaged, rather than the printer, is said apart under "Stored text". A misprint
@@ -33,9 +33,9 @@ comes with numbers you can put into the printed formula. Angles are in radians, 
 millimetres.
 
 **How it is proved.** Identities between sines and cosines are reduced to zero over the rationals, as
-polynomials modulo s² + c² = 1 for every angle: a proof, not a sample. Inverse functions (arc sine, arc tangent)
-are compared with 50 digits on a grid that contains their boundaries. Both are evaluated once more in double
-precision, through CasADi, at random points.
+polynomials modulo s² + c² = 1 for every angle: a proof, not a sample. Inverse functions (arc sine, arc
+tangent) are compared with 50 digits on a grid that contains their boundaries. Both are evaluated once more in
+double precision, through CasADi, at random points.
 """
 
 

@@ -1,4 +1,4 @@
-"""Shoulder angles measured by the exoskeleton, as angles of the human arm (Nguyen 2021, eq. 8 and Fig. 15)."""
+"""Shoulder angles measured by the exoskeleton, as angles of the human arm (Nguyen 2021, Fig. 15)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ def main() -> int:
 
     names = ("flexion", "abduction", "internal rotation")
     for name, angle in zip(names, np.rad2deg(arm[:, :3]).T, strict=True):
-        print(f"shoulder {name:18s} {angle[0]:7.1f}° at the start, {angle.min():7.1f}° to {angle.max():6.1f}°")
+        print(
+            f"shoulder {name:18s} {angle[0]:7.1f}° at the start, {angle.min():7.1f}° to {angle.max():6.1f}°"
+        )
 
     back = ak.elbow.device_posture(arm)
     print(f"there and back: {np.abs(back - measured).max():.1e} rad")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 
 import casadi as ca
 import numpy as np
@@ -221,3 +222,16 @@ def test_the_page_names_no_number_that_changes_with_the_machine() -> None:
     text = command.PAGE.read_text(encoding="utf-8")
     assert "e-16" not in text
     assert "nan" not in text.split()
+
+
+def test_docstrings_cite_entries_that_exist() -> None:
+    names = {f"{paper} {equation}" for paper, equations in EQUATIONS.items() for equation in equations} | set(
+        CLAIMS
+    )
+    cited = []
+    for file in (command.PAGE.parent.parent / "armik_sym").rglob("*.py"):
+        for text in re.findall(r"ledger: ([^;)]*?)(?:[;)]|\.\n)", file.read_text(encoding="utf-8")):
+            words = " ".join(text.split())
+            cited += [part.strip() for part in re.split(r",| and (?=nguyen2021|alfaiz)", words)]
+    assert len(cited) > 8
+    assert not [name for name in cited if name not in names]

@@ -45,7 +45,11 @@ class Solution:
         seed: Seed of everything random in the solve.
         timing: Where the time went.
         status: The solver's own word.
-        iterations: Iterations of the solver.
+        iterations: Iterations of the solver, of all samples together.
+        reached: Whether a pointwise method met its own stop criterion at each sample, shape (n,); None for
+            methods that solve all samples at once.
+        sample_iterations: Iterations or generations a pointwise method spent on each sample, shape (n,), or
+            None.
         settings: Options used, for the record.
 
     Raises:
@@ -63,6 +67,8 @@ class Solution:
     timing: Timing = field(default_factory=Timing)
     status: str = ""
     iterations: int = 0
+    reached: NDArray[np.bool_] | None = None
+    sample_iterations: NDArray[np.int64] | None = None
     settings: Mapping[str, object] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -32,7 +32,7 @@ def device_elbow_direction(q: ca.SX) -> ca.SX:
         Rotation matrix, SX of shape (3, 3); its second column points from the elbow to the shoulder.
 
     Source:
-        Nguyen 2021, eq. 4-5 (ledger: nguyen2021 4-5, the sign of B12 is misprinted).
+        Nguyen 2021, eq. 4-5 (ledger: nguyen2021 4-5; the sign of B12 is misprinted).
     """
     return _device_frame_3()(ca.vertcat(q, ca.DM.zeros(4)))
 

@@ -55,6 +55,6 @@ def vee_of_difference(E: ca.SX) -> ca.SX:
         (e32 - e23, e13 - e31, e21 - e12), SX of shape (3, 1).
 
     Source:
-        Al-Faiz, eq. 53 prints these differences with other signs and order.
+        Al-Faiz, eq. 53 prints these differences with other signs and order (ledger: alfaiz 53).
     """
     return ca.vertcat(E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1])

@@ -48,7 +48,8 @@ def alfaiz(upper_arm: float = 0.30, forearm: float = 0.24) -> Arm:
         ArmModelError: If a length is negative, not finite or above 5 m.
 
     Source:
-        Al-Faiz, Table 1, eq. 2-3, checked against eq. 7, 8, 23 and 38-46.
+        Al-Faiz, Table 1, eq. 2-3, checked against eq. 7, 8, 23 and 38-46; ledger: alfaiz 2, alfaiz Table 1,
+        alfaiz 7, alfaiz 23, alfaiz 38.
     """
     rows = (
         DHLink("shoulder_1", alpha=_RIGHT_ANGLE),

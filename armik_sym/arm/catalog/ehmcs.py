@@ -61,7 +61,8 @@ def ehmcs(dof: int = 7) -> Arm:
         OptionError: If `dof` is not 4, 5 or 7.
 
     Source:
-        Nguyen 2021, Table 4 and eq. 1-3 (chain), Tables 2 and 3 (range of motion).
+        Nguyen 2021, Table 4 and eq. 1-3 (chain), Tables 2 and 3 (range of motion); ledger: nguyen2021 1,
+        nguyen2021 3, nguyen2021 Table 2, nguyen2021 Table 4.
     """
     if dof not in (4, 5, 7):
         raise OptionError(f"ehmcs: dof is {dof!r}, expected 7 (all), 5 (measured) or 4 (wrist position)")

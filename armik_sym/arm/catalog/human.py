@@ -25,7 +25,7 @@ def human(upper_arm: float = 0.28, forearm: float = 0.26, hand: float = 0.19) ->
 
     R_0^3 = H C_3(q') H with C_3 of eq. (7), which is Ry(-q'1) Rz(-q'2) Ry(-q'3), H = diag(-1, 1, -1), and
     q'1 = -flexion, q'2 = abduction - 90°, q'3 = internal rotation + 90°. With the q' of eq. (8) this is
-    R_0^3 of the E-HMCS: `armik_sym.elbow.human_posture` converts (ledger: nguyen2021 6-7 and 8).
+    R_0^3 of the E-HMCS: `armik_sym.elbow.human_posture` converts (ledger: nguyen2021 6-7 and nguyen2021 8).
 
     Printed, used, and why:
 
