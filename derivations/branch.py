@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import mpmath
 import numpy as np
@@ -40,7 +40,9 @@ class Branch:
         corrected: The formula that is right in the whole domain; None if the printed one is.
         printed_text: What to show as printed (in the paper's letters); None shows `printed`.
         corrected_text: What to show as corrected.
-        points: Grid points per symbol.
+        inputs: What the printed formula takes, by name, written through the symbols; counterexamples are
+            given in these. Empty: in the symbols themselves.
+        points: Evenly spread grid points per symbol; at least 101 for one symbol, 15 for two.
     """
 
     symbol: str
@@ -51,12 +53,13 @@ class Branch:
     corrected: sp.Expr | None = None
     printed_text: sp.Expr | str | None = None
     corrected_text: sp.Expr | str | None = None
+    inputs: Mapping[str, sp.Expr] = field(default_factory=dict)
     points: int = 9
 
     def check(self) -> Evidence:
         """Compare with 50 digits on the grid, and in double precision through CasADi inside it."""
         miss = self._first_miss(self.printed, self.domain)
-        count = self.points ** len(self.domain)
+        count = len(list(itertools.product(*self._grids(self.domain))))
         if miss is None:
             return Evidence(Verdict.HOLDS, f"with {DIGITS} digits at {count} points, boundaries included")
         right_inside = self.printed_domain is not None and not self._first_miss(
@@ -84,20 +87,28 @@ class Branch:
         with mpmath.workdps(DIGITS + _GUARD):
             value = sp.lambdify(symbols, form, "mpmath")
             true = sp.lambdify(symbols, self.true, "mpmath")
-            grids = [_grid(*domain[symbol], self.points) for symbol in symbols]
-            for point in itertools.product(*grids):
+            for point in itertools.product(*self._grids(domain)):
                 numbers = [mpmath.mpf(sp.N(x, DIGITS)) for x in point]
                 try:
                     found = value(*numbers)
                 except ZeroDivisionError:
-                    return f"at {_named(symbols, point)}: a division by zero"
+                    return f"at {self._named(symbols, point)}: a division by zero"
                 wanted = true(*numbers)
                 if abs(_turned(found - wanted)) > _CLOSE:
                     return (
-                        f"at {_named(symbols, point)}: printed {_number(found)}, true {_number(wanted)} "
+                        f"at {self._named(symbols, point)}: printed {_number(found)}, true {_number(wanted)} "
                         "(modulo full turns)"
                     )
         return self._first_miss_in_double(form, domain)
+
+    def _grids(self, domain: Domain) -> list[list[sp.Expr]]:
+        points = max(self.points, {1: 101, 2: 15}.get(len(domain), 0))
+        return [_grid(low, high, points) for low, high in domain.values()]
+
+    def _named(self, symbols: list[sp.Symbol], point: tuple[sp.Expr, ...]) -> str:
+        values = dict(zip(symbols, point, strict=True))
+        shown = self.inputs or {str(symbol): symbol for symbol in symbols}
+        return ", ".join(f"{name} = {_number(sp.N(x.subs(values), 20))}" for name, x in shown.items())
 
     def _first_miss_in_double(self, form: sp.Expr, domain: Domain) -> str | None:
         symbols = list(domain)
@@ -109,9 +120,15 @@ class Branch:
 
 
 def _grid(low: sp.Expr, high: sp.Expr, points: int) -> list[sp.Expr]:
-    """Evenly spread points, then both ends and what is next to them; round numbers come first."""
-    inner = [low + (high - low) * sp.Rational(k, points - 3) for k in range(1, points - 3)]
-    return [*inner, low, low + _NEXT_TO, high - _NEXT_TO, high]
+    """Evenly spread points, the ends, every border of a quadrant, and what is next to these.
+
+    Round numbers come first, so that counterexamples are easy to type.
+    """
+    inner = [low + (high - low) * sp.Rational(k, points + 1) for k in range(1, points + 1)]
+    first, last = (int(sp.floor(end / (sp.pi / 2))) for end in (low, high))
+    borders = [k * sp.pi / 2 for k in range(first, last + 1) if low < k * sp.pi / 2 < high]
+    beside = [border + side for border in borders for side in (-_NEXT_TO, _NEXT_TO)]
+    return [*inner, *borders, *beside, low, low + _NEXT_TO, high - _NEXT_TO, high]
 
 
 def _opened(domain: Domain) -> Domain:
@@ -121,10 +138,6 @@ def _opened(domain: Domain) -> Domain:
 
 def _turned(angle: mpmath.mpf) -> mpmath.mpf:
     return angle - 2 * mpmath.pi * mpmath.nint(angle / (2 * mpmath.pi))
-
-
-def _named(symbols: list[sp.Symbol], point: tuple[sp.Expr, ...]) -> str:
-    return ", ".join(f"{symbol} = {_number(sp.N(x, 20))}" for symbol, x in zip(symbols, point, strict=True))
 
 
 def _number(value: object) -> str:

@@ -22,6 +22,15 @@ class Verdict(Enum):
     ADDED = "not in the paper, shown here"
 
 
+class Fault(Enum):
+    """What is wrong with an equation that needs a correction."""
+
+    MISPRINT = "misprint"
+    BRANCH = "lost quadrant or branch"
+    WORDING = "wording"
+    MODEL = "modelling"
+
+
 @dataclass(frozen=True)
 class Evidence:
     """What a check found; the same on every machine, so no measured rounding errors in the words.
@@ -107,6 +116,7 @@ class Claim:
         correction: The smallest correction in words; empty if none is needed.
         extraction: Damage done by text extraction rather than by the printer, in words.
         definition: For claims without a body: what is printed.
+        fault: What is wrong, for claims that need a correction.
     """
 
     paper: str
@@ -119,6 +129,7 @@ class Claim:
     correction: str = ""
     extraction: str = ""
     definition: tuple[Formula, ...] = ()
+    fault: Fault | None = None
 
     def check(self) -> Evidence:
         """What the check finds; definitions and what cannot be checked find themselves."""
