@@ -9,7 +9,7 @@ import armik_sym as ak
 
 def main() -> int:
     """Convert a task's device angles, show them as a clinician names them, and convert them back."""
-    measured = ak.load_task("brushing").measured.q  # synthetic device angles, (n, 5) [rad]
+    measured = ak.load_task("brushing").measured.q  # synthetic device angles, (n, 7) [rad]
     arm = ak.elbow.human_posture(measured)
 
     names = ("flexion", "abduction", "internal rotation")

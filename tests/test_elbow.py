@@ -166,7 +166,7 @@ def test_whole_postures_bring_hand_and_elbow_to_the_same_place(dof):
     q = np.random.default_rng(2).uniform(device.rom.lower, device.rom.upper, (500, 7))
     q[:, dof:] = 0
     converted = np.zeros_like(q)
-    converted[:, :dof] = [ak.elbow.human_posture(sample) for sample in q[:, :dof]]
+    converted[:, :dof] = ak.elbow.human_posture(q[:, :dof])
     np.testing.assert_array_equal(converted[:, 3:], q[:, 3:])
     on_device = hand_pose(device.chain, q, device.lengths)
     on_human = hand_pose(human.chain, converted, human.lengths)
@@ -176,11 +176,37 @@ def test_whole_postures_bring_hand_and_elbow_to_the_same_place(dof):
 
 
 def test_postures_survive_the_way_there_and_back():
-    t = np.linspace(0, 1, 300)[:, np.newaxis]
-    q = 0.7 * np.sin(3 * t + np.arange(7)) + 0.1
-    back = ak.elbow.device_posture(ak.elbow.human_posture(q))
-    np.testing.assert_allclose(back, q, atol=1e-9)
+    rom = ak.catalog.ehmcs().rom
+    q = np.random.default_rng(4).uniform(0.999 * rom.lower, 0.999 * rom.upper, (2_000, 7))
+    there = ak.elbow.human_posture(q)
+    np.testing.assert_allclose(ak.elbow.device_posture(there), q, atol=1e-9)
+    back = ak.elbow.human_posture(ak.elbow.device_posture(there, q[0, :3]))
+    np.testing.assert_allclose(back, there, atol=1e-9)
     np.testing.assert_allclose(ak.elbow.human_posture(np.zeros(7)), np.zeros(7), atol=1e-15)
+
+
+def test_of_two_solutions_the_one_inside_the_range_of_motion_is_taken():
+    rom = ak.catalog.human().rom
+    inside = np.random.default_rng(5).uniform(0.999 * rom.lower, 0.999 * rom.upper, (2_000, 7))
+    found = ak.elbow.human_posture(ak.elbow.device_posture(inside))
+    np.testing.assert_allclose(found, inside, atol=1e-9)
+
+
+@pytest.mark.parametrize("samples", [20, 600])
+def test_raising_the_arm_beside_the_singularity_does_not_depend_on_the_sampling(samples):
+    q = np.zeros((samples, 3))
+    q[:, 0], q[:, 1] = np.deg2rad(np.linspace(0, 170, samples)), np.deg2rad(1)
+    last = np.rad2deg(ak.elbow.human_posture(q)[-1])
+    np.testing.assert_allclose(last, [-1, 170, 0], atol=0.3)
+
+
+def test_with_a_neighbour_a_posture_path_is_continuous():
+    q = np.zeros((600, 4))
+    q[:, 0], q[:, 1] = np.deg2rad(np.linspace(0, 170, 600)), np.deg2rad(10)
+    path = ak.elbow.human_posture(q, neighbour=[0, 0, 0])
+    assert np.abs(np.diff(path, axis=0)).max() < np.deg2rad(3)
+    back = ak.elbow.device_posture(path, neighbour=q[0, :3])
+    np.testing.assert_allclose(back, q, atol=1e-9)
 
 
 def test_plain_movements_keep_their_names():
@@ -206,11 +232,19 @@ def test_the_matrices_are_symbolic_functions():
         (lambda: ak.elbow.device_to_human(np.zeros((4, 7))), r"shape \(4, 7\), expected \(n, 3\) or \(3,\)"),
         (lambda: ak.elbow.device_to_human([0, np.nan, 0]), "angle 2 is nan, expected a finite number"),
         (lambda: ak.elbow.human_to_device([[0, 0, 0], [0, 0, np.inf]]), "angle 3 of sample 1 is inf"),
+        (lambda: ak.elbow.device_to_human(np.zeros((4, 3)), np.zeros((3, 3))), r"or \(4, 3\), one per"),
         (
-            lambda: ak.elbow.device_to_human(np.zeros((4, 3)), np.zeros((3, 3))),
-            r"or \(4, 3\), one per",
+            lambda: ak.elbow.device_to_human(["a", "b", "c"]),
+            "'a', 'b', 'c'.*expected an array of real numbers",
         ),
-        (lambda: ak.elbow.human_posture([0.0, 1.0]), r"shape \(2,\), expected \(n, k\) or \(k,\) with k ≥ 3"),
+        (lambda: ak.elbow.device_to_human([[1, 2, 3], [1, 2]]), "expected an array of real numbers"),
+        (lambda: ak.elbow.device_to_human([1j, 0, 0]), "expected an array of real numbers"),
+        (lambda: ak.elbow.human_posture([0.0, 1.0]), r"human_posture.*\(2,\), expected \(n, k\) or \(k,\)"),
+        (
+            lambda: ak.elbow.human_posture([[0, 0, 0], [0, np.nan, 0]]),
+            "human_posture.*angle 2 of sample 1",
+        ),
+        (lambda: ak.elbow.device_posture([0, 0, 0], [0, 0]), r"device_posture, neighbour: shape \(2,\)"),
     ],
 )
 def test_wrong_input_is_named(call, message):
