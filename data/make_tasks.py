@@ -14,7 +14,8 @@ decimals. The hand path is computed from the angles *as written*.
 The paper names the sensors (potentiometer CPP-35B, encoder E6B2-CWZ6C) but prints neither their resolution
 nor which joint has which. Assumed here: encoders on q1 and q2 (heavy, so near the body), 1000 pulses per
 turn counted fourfold, 0.09°; potentiometers on q3, q4, q5, 340° over a 12-bit converter, 0.083°, with noise
-of 0.05° rms. q6 and q7 are not measured and stay 0.
+of 0.05° rms. q6 and q7 are not measured and stay 0. Sampled at 50 to 200 Hz, so that no joint turns by more
+than the search window of Table 5, π/100, between two samples.
 
 The same on every machine: noise comes from raw PCG64 integers, numbers are rounded well above the last bit
 of a libm, and no value may lie so near a rounding edge that the last bit could decide.
@@ -75,12 +76,12 @@ TASKS: Mapping[str, Recipe] = {
         ([(0.5, 15), (2.8, 27)], [(0.3, 46), (2.9, 61)], [(0.0, 30)], [(0.3, 44), (3.0, 125)], [(0.0, 5)]),
     ),
     "brushing": Recipe(
-        "Brushing teeth", 3, 50, 6.0,
+        "Brushing teeth", 3, 100, 6.0,
         ([(0.4, 6), (2.0, 33)], [(0.2, -6), (2.0, 58)], [(0.0, 38)], [(0.3, 34), (2.1, 127)], [(0.0, 28)]),
         q2_swing=(2.0, 7.0, 1.5),
     ),
     "playing_ball": Recipe(
-        "Playing ball", 4, 100, 2.6,
+        "Playing ball", 4, 200, 2.6,
         ([(0.2, 12), (1.05, 80), (1.2, 80), (2.3, 35)],
          [(0.2, 25), (1.0, -8), (1.1, -8), (1.75, 62), (2.4, 40)],
          [(0.2, 20), (1.1, -32), (1.2, -32), (1.75, 45), (2.3, 54)],
@@ -88,7 +89,7 @@ TASKS: Mapping[str, Recipe] = {
          [(0.3, 0), (1.0, -25), (1.2, -25), (1.8, 48), (2.4, 30)]),
     ),
     "catching_ball": Recipe(
-        "Catching a ball", 5, 100, 2.0,
+        "Catching a ball", 5, 200, 2.0,
         ([(0.1, 8), (0.85, 34), (1.0, 34), (1.6, 20)],
          [(0.1, 8), (0.9, 74), (1.0, 74), (1.7, 42)],
          [(0.15, 18), (0.9, -12), (1.0, -12), (1.6, 28)],
@@ -144,7 +145,7 @@ def measured_degrees(recipe: Recipe) -> tuple[Array, list[list[str]]]:
         counts = rounded(angle, COUNT_DEG[j], LAST_BITS)
         smooth = sosfiltfilt(low_pass, counts * COUNT_DEG[j])
         q_deg[:, j] = rounded(smooth, 1e-4, 100 * LAST_BITS) / 1e4
-    texts = [[f"{t:.2f}", *(f"{x:.4f}" for x in row)] for t, row in zip(time, q_deg.tolist(), strict=True)]
+    texts = [[f"{t:.3f}", *(f"{x:.4f}" for x in row)] for t, row in zip(time, q_deg.tolist(), strict=True)]
     return q_deg, texts
 
 

@@ -75,9 +75,14 @@ def test_what_a_task_is(task):
     assert isinstance(task.measured, JointMotion)
     assert task.measured.joint_names == arm.joint_names
     assert np.array_equal(task.path.time, task.measured.time)
-    assert 100 <= task.path.n <= 350
+    assert 100 <= task.path.n <= 650
     assert 1.5 <= task.path.duration <= 6.0
-    assert 49 <= (task.path.n - 1) / task.path.duration <= 101
+    assert 49 <= (task.path.n - 1) / task.path.duration <= 201
+
+
+def test_no_joint_leaves_the_search_window_of_the_paper_between_two_samples(task):
+    """π/100 per sample (Nguyen 2021, Table 5): else no Pro-ISADE could follow the elbow."""
+    assert np.abs(np.diff(task.measured.q, axis=0)).max() < 0.9 * np.pi / 100
 
 
 def test_the_path_is_the_path_of_the_angles(task):
