@@ -24,18 +24,21 @@ _SYMBOLS = {p: f"q'_{k + 1}" for k, p in enumerate(P)}
 _HEAD = """# The ledger: every numbered equation of both papers, checked by machine
 
 Written by `python -m derivations --markdown`; a test holds it against the code in `derivations/`. The true
-side of every equation comes from the DH chain through `armik_sym.symbolic`; every verdict is reached by its
-check, which the tests also show to be able to fail.
+side of every equation comes from the DH chain through `armik_sym.symbolic`. Every verdict but that of a bare
+definition is reached by a check, and the tests show that the checks are able to fail.
 
-**How to read it.** "Printed" is the equation as the paper prints it. Both papers were read as text extracted
-from print; what extraction damaged, rather than the printer, is said apart under "Stored text". A misprint
-comes with numbers you can put into the printed formula. Angles are in radians, lengths of Nguyen 2021 in
-millimetres.
+**How to read it.** "Printed" is the equation as the paper prints it, as far as one can tell: both papers were
+read as text extracted from print, not in print. Where extraction damaged the text, "Stored text" says how it
+was read; an equation that "holds as printed" then holds in that reading. A correction is of a kind:
+*misprint* (something else was meant), *lost quadrant or branch* (an inverse function returns one solution,
+and another lies inside the range of motion, too), *wording*, or *modelling* (the formula does what it says,
+but not what it is for). It comes with numbers you can put into the printed formula. Angles are in radians,
+lengths of Nguyen 2021 in millimetres.
 
 **How it is proved.** Identities between sines and cosines are reduced to zero over the rationals, as
 polynomials modulo s² + c² = 1 for every angle: a proof, not a sample. Inverse functions (arc sine, arc
-tangent) are compared with 50 digits on a grid that contains their boundaries. Both are evaluated once more in
-double precision, through CasADi, at random points.
+tangent) are compared with 50 digits on a grid that contains the borders of all quadrants and what is next to
+them. Both are evaluated once more in double precision, through CasADi, at random points.
 """
 
 
@@ -48,7 +51,7 @@ def page() -> str:
     Source:
         Nguyen 2021; Al-Faiz.
     """
-    parts = [_HEAD, _counts(), "## Misprints: what to write instead\n", _misprints()]
+    parts = [_HEAD, _counts(), "## What to write instead\n", _corrections()]
     for paper, module in PAPERS.items():
         parts += [f"## {_TITLES[paper]}\n", " ".join((module.__doc__ or "").split()) + "\n"]
         claims = [claim for claim in all_claims() if claim.paper == paper]
@@ -62,14 +65,15 @@ def _counts() -> str:
     return "\n".join(["| | verdict | entries |", "|---|---|---|", *rows]) + "\n"
 
 
-def _misprints() -> str:
+def _corrections() -> str:
     wrong = [claim for claim in all_claims() if claim.verdict in (Verdict.CORRECTED, Verdict.FALSE)]
     rows = [
         f"| {claim.paper} | [{_number(claim)}](#{_anchor(claim)}) | {_cell(claim.title)} | "
-        f"{_cell(claim.correction or 'no correction known')} |"
+        f"{claim.fault.value if claim.fault else ''} | {_cell(claim.correction or 'no correction known')} |"
         for claim in wrong
     ]
-    return "\n".join(["| paper | equation | about | instead |", "|---|---|---|---|", *rows]) + "\n"
+    head = ["| paper | equation | about | kind | instead |", "|---|---|---|---|---|"]
+    return "\n".join([*head, *rows]) + "\n"
 
 
 def _contents(claims: list[Claim]) -> str:
@@ -105,25 +109,27 @@ def _paragraph(name: str, text: str) -> str:
 def _formulas(name: str, formulas: tuple[Formula, ...]) -> list[str]:
     if not formulas:
         return []
-    return [f"*{name}.*\n", *(f"$$\n{latex(formula)}\n$$\n" for formula in formulas)]
+    return [f"*{name}.*\n", *(f"```math\n{latex(formula)}\n```\n" for formula in formulas)]
 
 
 def latex(formula: Formula) -> str:
-    """One formula, long sums broken into lines.
+    """One formula, in the macros GitHub allows (it refuses operatorname).
 
     Args:
         formula: The formula.
 
     Returns:
-        LaTeX without dollar signs.
+        LaTeX, one line.
 
     Source:
         None (typesetting).
     """
     left = f"{formula.left} {formula.relation} " if formula.left else ""
-    if isinstance(formula.right, str):
-        return left + formula.right
-    return left + str(sp.latex(formula.right, symbol_names=_SYMBOLS, inv_trig_style="full"))
+    right = formula.right
+    if not isinstance(right, str):
+        right = str(sp.latex(right, symbol_names=_SYMBOLS, inv_trig_style="full"))
+    text = (left + right).replace(r"\operatorname{atan}_{2}", r"\mathrm{atan2}")
+    return text.replace(r"\operatorname", r"\mathrm")
 
 
 def _number(claim: Claim) -> str:

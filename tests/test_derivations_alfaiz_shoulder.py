@@ -25,10 +25,12 @@ from derivations.alfaiz.chain import L3, L4, OFFSETS, Q
 from derivations.alfaiz.closed_form import Lengths, elbow_frame, phi_of, pose, solutions
 from derivations.alfaiz.elementary_transforms import homogeneous, modified_row, rot_x, rot_z, shift
 from derivations.alfaiz.exact_borders import check_with_borders
+from derivations.alfaiz.facts import IdentityWithFacts
+from derivations.alfaiz.letters import in_letters, in_words
 from derivations.alfaiz.no_other_solutions import shoulder_and_elbow_count, wrist_counts
 from derivations.alfaiz.swivel_geometry import ElbowCircle
 from derivations.branch import Branch
-from derivations.claim import Claim, Verdict
+from derivations.claim import Claim, Fault, Verdict
 from derivations.identity import Identity
 
 MODULES = (
@@ -62,6 +64,60 @@ def test_the_check_reaches_the_verdict(name: str) -> None:
         assert evidence.counterexample
         assert claim.correction
         assert claim.corrected_formulas()
+
+
+FAULTS = {
+    "1": Fault.WORDING,
+    "2": Fault.MISPRINT,
+    "Table 1": Fault.MISPRINT,
+    "5": Fault.MISPRINT,
+    **dict.fromkeys(("20", "21", "22", "35"), Fault.BRANCH),
+}
+
+
+def test_every_correction_has_its_kind() -> None:
+    assert {name: claim.fault for name, claim in CLAIMS.items() if claim.fault} == FAULTS
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("5", "l4 = l3 = 1, θ4 = 0 (straight arm): printed tg = 0, true 2"),
+        ("20", "dx = 0, dz = -1, φ = 0: printed 0, true π"),
+        ("20", "dx = -1, dz = 0, φ = 0: printed -π/2, true π/2"),
+        ("22", "r·cos φ = 3/20, θ4 = π/2, l3 = 6/25, l4 = 3/10: printed π/6, true 5·π/6"),
+        ("35", "k5 = 0, k6 = -1: printed 0, true π"),
+    ],
+)
+def test_counterexamples_are_in_the_inputs_of_the_formula(name: str, words: str) -> None:
+    assert words in CLAIMS[name].check().counterexample
+
+
+def test_what_is_displayed_is_what_is_checked() -> None:
+    """A mutated statement is displayed mutated; abbreviations put back give the checked expression."""
+    named = [name for name in IDENTITIES if getattr(CLAIMS[name].body, "names", None) is not None]
+    assert {"9-10", "11-12", "15-18", "19", "24-25", "28-29", "33-34"} <= set(named)
+    for name in named:
+        body = CLAIMS[name].body
+        assert isinstance(body, IdentityWithFacts)
+        shown = body.printed_formulas()
+        assert len(shown) == len(body.printed)
+        for i in range(len(body.printed)):
+            wrong = body.printed.copy()
+            wrong[i] = -wrong[i]
+            other = dataclasses.replace(body, printed=wrong).printed_formulas()
+            changed = [(a.left, a.right) != (b.left, b.right) for a, b in zip(shown, other, strict=True)]
+            assert changed == [k == i for k in range(len(shown))]
+
+
+def test_letters_are_names_only() -> None:
+    form = shoulder_position.printed_dx()
+    s, c, theta = (sp.symbols(f"{x}_1:8") for x in ("s", "c", "theta"))
+    assert in_letters(form).free_symbols == {*s[:4], *c[:4], L3, L4}
+    back = dict(zip((*s, *c), (*map(sin, Q), *map(cos, Q)), strict=True))
+    assert in_letters(form).xreplace(back) == form
+    assert str(in_letters(Q[0] + sin(Q[1]))) == f"{s[1]} + {theta[0]}"
+    assert in_words(sp.sqrt(3) * pi / 2) == "√3·π/2"
 
 
 def test_every_equation_from_1_to_35_has_one_claim() -> None:
@@ -232,6 +288,15 @@ def test_the_swivel_formula_knows_a_turned_sign() -> None:
         assert evidence.counterexample
 
 
+def test_the_angle_at_the_shoulder_does_not_take_the_sign_of_the_elbow() -> None:
+    def signed(theta4: sp.Expr) -> sp.Expr:
+        return L3 * sin(theta4) / (L4 + L3 * cos(theta4))
+
+    evidence = swivel_meaning.check_swivel(swivel_meaning.tangent_of_phi, signed)
+    assert evidence.verdict is Verdict.FALSE
+    assert "θ4 = -" in evidence.counterexample
+
+
 @pytest.mark.parametrize("height", [0.05, 0.35])
 def test_phi_of_psi_turns_back_only_if_the_wrist_is_low(height: float) -> None:
     circle = ElbowCircle(np.array([0.1, -height, 0.2]), Lengths())
@@ -251,12 +316,12 @@ def test_the_elbow_circle_is_the_chains() -> None:
     lengths = Lengths(0.31, 0.27)
     for _ in range(50):
         q = rng.uniform(-np.pi, np.pi, 7)
-        q[3] = rng.uniform(0.1, 3.0)
+        q[3] = rng.choice([-1, 1]) * rng.uniform(0.1, 3.0)
         elbow = elbow_frame(q, lengths)[:3, 3]
         circle = ElbowCircle(pose(q, lengths)[:3, 3], lengths)
         np.testing.assert_allclose(circle.elbow(circle.psi(elbow)), elbow, atol=1e-12)
         assert np.tan(circle.gamma) == pytest.approx(
-            lengths.l3 * np.sin(q[3]) / (lengths.l4 + lengths.l3 * np.cos(q[3]))
+            lengths.l3 * abs(np.sin(q[3])) / (lengths.l4 + lengths.l3 * np.cos(q[3]))
         )
 
 

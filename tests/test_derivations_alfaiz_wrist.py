@@ -13,6 +13,7 @@ from derivations.alfaiz import (
     axis_angle,
     damped_svd_step,
     levenberg_marquardt,
+    log_derivative,
     newton_step,
     orientation_residual,
     residuals,
@@ -21,9 +22,10 @@ from derivations.alfaiz import (
     wrist_together,
 )
 from derivations.alfaiz.chain import Q, between, frame
+from derivations.alfaiz.exact_borders import with_borders
 from derivations.alfaiz.facts import BranchWithFacts, Fact, with_facts
 from derivations.branch import Branch
-from derivations.claim import Claim, Evidence, Verdict
+from derivations.claim import Claim, Evidence, Fault, Verdict
 from derivations.identity import Identity
 
 MODULES = (
@@ -77,7 +79,8 @@ def test_a_turned_sign_turns_the_verdict_of_a_branch(name: str) -> None:
     body = CLAIMS[name].body
     assert isinstance(body, Branch)
     assert dataclasses.replace(body, printed=-body.printed).check().verdict is Verdict.FALSE
-    assert dataclasses.replace(body, corrected=-body.corrected).check().verdict is Verdict.FALSE
+    if body.corrected is not None:
+        assert dataclasses.replace(body, corrected=-body.corrected).check().verdict is Verdict.FALSE
 
 
 def test_a_fact_that_fails_turns_the_verdict() -> None:
@@ -114,11 +117,50 @@ def test_38_fails_with_the_twist_of_table_1() -> None:
     assert Identity(wrist_rotation.printed_rotation(), tabled).check().verdict is Verdict.FALSE
 
 
-def test_the_special_case_is_wrong_at_minus_90_only_if_it_prints_plus_90() -> None:
-    q5 = Q[4]
-    assert wrist_angles.wrong_at_minus_90(q5, wrist_angles.PRINTED[q5])
-    minus = wrist_angles.PRINTED[q5].subs(sp.pi / 2, -sp.pi / 2)
-    assert not wrist_angles.wrong_at_minus_90(q5, minus)
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("44", "r13 = -1, r33 = 0, θ6 = 0: printed 0, true π"),
+        ("44", "r13 = 0, r33 = 1, θ6 = 0: printed π/2, true -π/2"),
+        ("47", "r22 = 0, r21 = 1, θ6 = 0: printed 0, true π"),
+        ("47", "r22 = -1, r21 = 0, θ6 = 0: printed π/2, true -π/2"),
+        ("51", "‖l‖ = √3, r11 + r22 + r33 = 0: printed -π/3, true 2·π/3"),
+        ("53", "r23 = -1, r32 = 1): printed (0, 0, -2), true (2, 0, 0)"),
+    ],
+)
+def test_counterexamples_are_in_the_inputs_of_the_formula(name: str, words: str) -> None:
+    assert words in CLAIMS[name].check().counterexample
+
+
+def test_every_correction_has_its_kind() -> None:
+    assert {name: claim.fault for name, claim in CLAIMS.items() if claim.fault} == {
+        "44": Fault.BRANCH,
+        "47": Fault.BRANCH,
+        "51": Fault.BRANCH,
+        "53": Fault.MISPRINT,
+        "55-56": Fault.MODEL,
+        "60-61": Fault.WORDING,
+        "63": Fault.MISPRINT,
+    }
+    assert all(claim.fault for claim in CLAIMS.values() if claim.verdict is Verdict.CORRECTED)
+
+
+def test_40_holds_for_a_wrist_that_bends_by_90_degrees_only() -> None:
+    body = CLAIMS["40"].body
+    assert isinstance(body, BranchWithFacts)
+    wider = {**body.domain, Q[5]: (-sp.pi, sp.pi)}
+    assert dataclasses.replace(body, domain=wider).check().verdict is Verdict.FALSE
+    assert not wrist_angles.theta6_for_all_angles(wrist_angles.PRINTED[Q[5]])
+
+
+def test_44_meets_its_zero_denominator_exactly() -> None:
+    body = CLAIMS["44"].body
+    assert isinstance(body, BranchWithFacts)
+    minus = body.printed.subs(sp.pi / 2, -sp.pi / 2)
+    found = with_borders(dataclasses.replace(body, printed=minus), body.check(), body.borders).counterexample
+    assert "r13 = 0, r33 = -1, θ6 = 0: printed -π/2, true π/2" in found
+    spoilt = dataclasses.replace(body, corrected=body.printed)
+    assert with_borders(spoilt, body.check(), body.borders).verdict is Verdict.FALSE
 
 
 def test_atan2_with_the_sign_on_the_wrong_part_is_half_a_turn_off() -> None:
@@ -146,6 +188,25 @@ def test_the_wrist_has_two_solutions_and_a_singularity() -> None:
 
 def test_50_counts_from_the_hand_to_the_target() -> None:
     assert residuals.check_sign(-residuals.printed_residual()).verdict is Verdict.FALSE
+
+
+def test_50_knows_the_right_from_the_left_jacobian() -> None:
+    right = log_derivative.inverse_right_jacobian
+    assert log_derivative.is_derivative_of_the_arm(right)
+    assert log_derivative.leaves_the_residual(right)
+
+    def left(c: sp.Matrix, delta: sp.Expr) -> sp.Matrix:
+        return right(-c, delta)
+
+    def none(_c: sp.Matrix, _delta: sp.Expr) -> sp.Matrix:
+        return sp.eye(3)
+
+    def half(c: sp.Matrix, _delta: sp.Expr) -> sp.Matrix:
+        return sp.eye(3) + log_derivative.cross_matrix(c) / 2
+
+    for wrong in (left, none, half):
+        assert not log_derivative.is_derivative(wrong)
+        assert log_derivative.largest_miss(wrong) > 0.1
 
 
 def test_52_notices_the_other_order_and_the_transpose() -> None:

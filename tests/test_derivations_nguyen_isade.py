@@ -1,4 +1,4 @@
-"""Nguyen 2021, eq. 9-16 and Tables 1, 2, 5: checks reach their verdicts, wrong statements turn them."""
+"""Nguyen 2021, eq. 1, 9-16 and Tables 1, 2, 4, 5: checks reach their verdicts, wrong statements turn them."""
 
 from __future__ import annotations
 
@@ -10,11 +10,15 @@ import sympy as sp
 
 from armik_sym.arm.catalog import ehmcs, human
 from armik_sym.arm.range_of_motion import RangeOfMotion
-from derivations.claim import Claim, Verdict
+from derivations.claim import Claim, Fault, Formula, Verdict
 from derivations.nguyen2021 import (
     cost,
     crossover,
+    dh_table,
+    direction_cosines,
+    elbow_direction,
     final_scaling_factor,
+    forward_kinematics,
     mutation,
     range_of_motion,
     scaling_factor,
@@ -26,6 +30,7 @@ from derivations.nguyen2021.isade import GENERATIONS, generations_needed
 
 MODULES = (range_of_motion, mutation, scaling_factor, final_scaling_factor, crossover, cost, settings)
 CLAIMS = {claim.equation: claim for module in MODULES for claim in module.CLAIMS}
+KINEMATICS = (dh_table, forward_kinematics, elbow_direction)
 
 
 @pytest.mark.parametrize("equation", CLAIMS)
@@ -40,6 +45,72 @@ def test_the_check_reaches_the_verdict_of_the_claim(equation: str) -> None:
 
 def test_nothing_of_this_part_is_missing() -> None:
     assert list(CLAIMS) == "Table 1|Table 2|9|10|11|12|13|14|15|16|Table 5".split("|")
+
+
+def test_every_correction_says_what_is_wrong() -> None:
+    claims = [claim for module in (*MODULES, *KINEMATICS) for claim in module.CLAIMS]
+    assert all((claim.fault is None) == (claim.verdict is not Verdict.CORRECTED) for claim in claims)
+    faults = {claim.equation: claim.fault for claim in claims if claim.fault is not None}
+    assert faults.pop("13") is Fault.WORDING
+    assert faults.pop("16") is Fault.MODEL
+    assert faults == dict.fromkeys(("Table 1", "Table 4", "1", "4-5", "14"), Fault.MISPRINT)
+
+
+def test_what_is_shown_is_what_is_checked() -> None:
+    shown = {
+        "9": mutation.PRINTED_BEST_1,
+        "10": mutation.PRINTED_BEST_2,
+        "11": mutation.PRINTED_RAND_TO_BEST_1,
+        "12": scaling_factor.PRINTED_BY_RANK,
+        "13": scaling_factor.PRINTED_MEAN,
+        "14": final_scaling_factor.PRINTED_FACTOR,
+        "15": crossover.PRINTED_ADAPTATION,
+        "16": cost.PRINTED_COST,
+    }
+    for equation, expression in shown.items():
+        formula: Formula = CLAIMS[equation].printed_formulas()[0]
+        assert formula.right is expression
+        assert "operatorname" not in sp.latex(formula.right)
+    assert "X_{r1,j}^G - X_{r2,j}^G" in sp.latex(mutation.PRINTED_BEST_1)
+
+
+# Table 4 and eq. (1)
+
+
+def test_a_table_and_a_position_that_agree_turn_the_verdict() -> None:
+    table, position = sp.Matrix(dh_table.PRINTED_TABLE), forward_kinematics.printed_position()
+    assert dh_table.check_table(table, position).verdict is Verdict.CORRECTED
+    with_offset = position + dh_table.missing_term().subs(sp.Symbol("d_2", real=True), 7)
+    assert dh_table.check_table(table, with_offset).verdict is Verdict.HOLDS
+    table[1, 1] = 0
+    assert dh_table.check_table(table, position).verdict is Verdict.HOLDS
+    assert dh_table.check_table(table, -position).verdict is Verdict.FALSE
+
+
+@pytest.mark.parametrize("entry", [(0, 1), (1, 0), (2, 3), (4, 1), (6, 2)])
+def test_another_entry_of_the_table_turns_the_verdict(entry: tuple[int, int]) -> None:
+    table = sp.Matrix(dh_table.PRINTED_TABLE)
+    table[entry] = 1 - table[entry]
+    evidence = dh_table.check_table(table, forward_kinematics.printed_position())
+    assert evidence.verdict is Verdict.FALSE
+    assert f"row {entry[0] + 1}, column {entry[1] + 1}" in evidence.counterexample
+
+
+def test_the_rotations_are_free_of_the_offset_and_the_positions_are_not() -> None:
+    d2 = sp.Symbol("d_2", real=True)
+    assert dh_table.rotations_are_free_of_d2()
+    assert frame(5, d2_mm=d2)[:3, 3].has(d2)
+    assert dh_table.missing_term() == d2 * frame(1)[:3, 2]
+
+
+def test_a_transform_that_is_not_rigid_or_not_a_row_turns_the_verdict() -> None:
+    printed, corrected = forward_kinematics.printed_transform(), forward_kinematics.corrected_transform()
+    assert forward_kinematics.check_transform(corrected, corrected).verdict is Verdict.HOLDS
+    for i in range(3):
+        for j in range(4):
+            wrong = corrected.copy()
+            wrong[i, j] = 1 - wrong[i, j]
+            assert forward_kinematics.check_transform(printed, wrong).verdict is Verdict.FALSE
 
 
 # Mutation
@@ -98,6 +169,25 @@ def test_a_mean_that_rises_turns_the_verdict() -> None:
         assert scaling_factor.check_mean(wrong).verdict is Verdict.FALSE
 
 
+def test_words_that_do_not_cross_the_bounds_turn_the_verdict() -> None:
+    mean, bounds = scaling_factor.PRINTED_MEAN, scaling_factor.CORRECTED_BOUNDS
+    assert scaling_factor.check_mean(mean, bounds).verdict is Verdict.HOLDS
+    assert scaling_factor.check_mean(mean, bounds[::-1]).verdict is Verdict.CORRECTED
+
+
+def test_the_final_factor_stays_in_the_stated_ranges_and_in_no_smaller_ones() -> None:
+    module = final_scaling_factor
+    for factor, (low, high) in (
+        (module.PRINTED_FACTOR, module.PRINTED_RANGE),
+        (module.CORRECTED_FACTOR, module.CORRECTED_RANGE),
+    ):
+        assert module.stays_between(factor, (low, high))
+        for limits in ((low + sp.Rational(1, 50), high), (low, high - sp.Rational(1, 50))):
+            assert not module.stays_between(factor, limits)
+    assert not module.stays_between(module.PRINTED_FACTOR, module.CORRECTED_RANGE)
+    assert not module.stays_between(module.CORRECTED_FACTOR, module.PRINTED_RANGE)
+
+
 def test_the_check_of_the_final_factor_takes_either_sign_for_what_it_is() -> None:
     printed, corrected = final_scaling_factor.PRINTED_FACTOR, final_scaling_factor.CORRECTED_FACTOR
     assert final_scaling_factor.check_factor(corrected, corrected).verdict is Verdict.HOLDS
@@ -132,13 +222,42 @@ def test_another_rule_for_the_crossover_rate_turns_the_verdict(wrong: sp.Expr) -
     assert crossover.check_rule(wrong).verdict is Verdict.FALSE
 
 
+def test_the_rule_for_the_crossover_rate_is_read_off_the_printed_cases() -> None:
+    tau, rand_1, rand_2, rate = crossover.TAU, crossover.RAND_1, crossover.RAND_2, crossover.CR
+    same = sp.Piecewise((rate, sp.Ge(rand_1, tau)), (rand_2, True))
+    assert sp.expand(crossover.rule_of(same) - crossover.PRINTED_RULE) == 0
+    for wrong in (
+        sp.Piecewise((rate, sp.Le(rand_1, tau)), (rand_2, True)),
+        sp.Piecewise((rand_2, sp.Ge(rand_1, tau)), (rate, True)),
+    ):
+        assert crossover.check_rule(crossover.rule_of(wrong)).verdict is Verdict.FALSE
+
+
 # Cost and settings
 
 
-def test_more_cosines_help_and_three_are_not_enough() -> None:
-    assert cost.check_cost(3, 3).verdict is Verdict.FALSE
-    assert cost.check_cost(6, 9).verdict is Verdict.HOLDS
-    first, second = cost.collision((0, 4, 8))
+def test_another_cost_turns_the_verdict() -> None:
+    printed, corrected = cost.PRINTED_COST, cost.CORRECTED_COST
+    assert [cost.cosines_compared(c) for c in (printed, corrected)] == [3, 9]
+    assert cost.check_cost(corrected, corrected).verdict is Verdict.HOLDS
+    assert cost.check_cost(printed, printed).verdict is Verdict.FALSE
+    (x, wanted), (rx, rx_wanted) = cost.POSITION[0], cost.COSINES[0]
+    i = cost.FOUND[1, 1] - cost.WANTED[1, 1]
+    two = printed.subs({rx: 0, rx_wanted: 0})
+    four = printed.subs((rx - rx_wanted) ** 2, (rx - rx_wanted) ** 2 + i**2)
+    turned = printed.subs(wanted, -wanted)
+    squares = printed.replace(sp.Pow, lambda base, power: base if power == sp.Rational(1, 2) else base**power)
+    for wrong in (two, four, turned, squares, printed.subs({x: 2 * x}), printed.subs(cost.A, 2 * cost.A)):
+        assert wrong != printed
+        assert cost.check_cost(wrong, corrected).verdict is Verdict.FALSE
+
+
+def test_five_cosines_never_suffice_and_six_only_as_two_columns_or_rows() -> None:
+    assert not any(direction_cosines.determining(n) for n in range(1, 6))
+    assert direction_cosines.determining(6)[0] == (0, 1, 2, 3, 4, 5)
+    assert len(direction_cosines.determining(6)) == 6
+    assert direction_cosines.two_whole_lines_suffice()
+    first, second = direction_cosines.collision((0, 4, 8))
     assert first != second
     assert first.diagonal() == second.diagonal()
     for R in (first, second):
@@ -173,7 +292,7 @@ def test_other_lengths_turn_the_verdict() -> None:
 def test_a_turned_row_turns_the_verdict_unless_it_is_symmetric(movement: str) -> None:
     first, second = range_of_motion.MODEL_DEG[movement]
     turned = {**range_of_motion.MODEL_DEG, movement: (-first, -second)}
-    expected = Verdict.CORRECTED if first == -second else Verdict.FALSE
+    expected = Verdict.DEFINITION if first == -second else Verdict.FALSE
     assert range_of_motion.check_limits(turned).verdict is expected
 
 

@@ -112,15 +112,26 @@ def after_one_step(l: Callable[[sp.Matrix], sp.Matrix], axis: sp.Matrix, degrees
     q = np.array([0.3, 0.5, -0.4, 1.0, 0.2, 0.4, -0.6])
     R, J = (np.array(value) for value in hand()(q)[1:])
     a = np.array(axis, dtype=float).ravel()
-    target = _turned(a, degrees * _DEGREE) @ R
+    target = turned(a, degrees * _DEGREE) @ R
     vector = np.array(l(sp.Matrix(target @ R.T)), dtype=float).ravel()
     c = degrees * _DEGREE * vector / np.linalg.norm(vector)
     reached = np.array(hand()(q + np.linalg.pinv(J[3:]) @ c)[1])
     return float(np.arccos(np.clip((np.trace(target @ reached.T) - 1) / 2, -1, 1)) / _DEGREE)
 
 
-def _turned(a: np.ndarray, angle: float) -> np.ndarray:
-    """Rotation about a unit axis (Rodrigues)."""
+def turned(a: np.ndarray, angle: float) -> np.ndarray:
+    """Rotation about a unit axis.
+
+    Args:
+        a: Axis, shape (3,).
+        angle: In [rad].
+
+    Returns:
+        Rotation matrix, shape (3, 3).
+
+    Source:
+        Rodrigues.
+    """
     K = np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
     return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
 

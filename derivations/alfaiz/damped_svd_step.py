@@ -14,7 +14,7 @@ from armik_sym.arm.catalog import alfaiz
 from derivations.alfaiz.facts import Fact, with_facts
 from derivations.alfaiz.levenberg_marquardt import PAPER, printed_step
 from derivations.alfaiz.target_pose import hand
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.random_points import largest_difference
 
@@ -246,5 +246,6 @@ CLAIMS = (
         ),
         derivation="J = U S Vᵀ put into (62): JᵀJ = V SᵀS Vᵀ, Jᵀ = V Sᵀ Uᵀ, VᵀV = I.",
         correction="Jᵀ = V Sᵀ Uᵀ instead of the last Vᵀ; the inverse is then one of a diagonal matrix",
+        fault=Fault.MISPRINT,
     ),
 )

@@ -5,9 +5,11 @@ from __future__ import annotations
 import sympy as sp
 from sympy import acos, cos, pi
 
+from armik_sym.arm.catalog import alfaiz
 from derivations.alfaiz.chain import L3, L4, Q, frame
+from derivations.alfaiz.letters import in_angles
 from derivations.branch import Branch
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.identity import Identity
 
@@ -89,8 +91,19 @@ def check_distance(printed: sp.Expr, corrected: sp.Expr) -> Evidence:
         only_square = Identity(sp.Matrix([printed]), true).check()
         both_needed = only_square.verdict is not Verdict.HOLDS
         words = "; with the square but the printed sign it still fails" if both_needed else ""
-        return Evidence(found.verdict, found.proof + words, "tg², " + found.counterexample)
+        return Evidence(found.verdict, found.proof + words, _straight_arm(printed))
     return found
+
+
+def _straight_arm(printed: sp.Expr) -> str:
+    """The printed formula in its own inputs, the arm straight and both segments 1 long."""
+    inputs = {L3: 1, L4: 1, _q4: 0}
+    true = sp.sqrt(squared_distance().subs({**inputs, **dict.fromkeys(Q, 0)}))
+    return f"at l4 = l3 = 1, θ4 = 0 (straight arm): printed tg = {printed.subs(inputs)}, true {true}"
+
+
+def _no_elbow_flexes_backwards() -> bool:
+    return bool(alfaiz().rom.lower[3] >= 0)
 
 
 def check_elbow(cosine: sp.Expr) -> Evidence:
@@ -113,13 +126,15 @@ def check_elbow(cosine: sp.Expr) -> Evidence:
     fold = _tg**2 - (L4 - L3) ** 2 - 2 * L4 * L3 * (1 + cosine)
     flexion = Branch(r"\theta_4", acos(cos(_q4)), _q4, _FLEXION).check()
     everywhere = Branch(r"\theta_4", acos(cos(_q4)), _q4, _WHOLE_TURN, _FLEXION).check()
+    if not _no_elbow_flexes_backwards():
+        return Evidence(Verdict.FALSE, "the range of motion contains -θ4", "θ4 < 0")
     if not (is_exactly_zero(reach) and is_exactly_zero(fold)) or flexion.verdict is not Verdict.HOLDS:
         return Evidence(Verdict.FALSE, "the arc cosine is not the elbow angle", flexion.counterexample)
     return Evidence(
         Verdict.HOLDS,
         f"the argument is cos θ4: {found.proof}; its arc cosine is θ4 for 0 ≤ θ4 ≤ π: {flexion.proof}; it "
-        "lies within ±1 exactly if |l4 - l3| ≤ tg ≤ l4 + l3; outside 0 … π the sign is lost, "
-        + everywhere.counterexample,
+        "lies within ±1 exactly if |l4 - l3| ≤ tg ≤ l4 + l3; the range of motion of the arm has θ4 ≥ 0; "
+        "outside 0 … π the sign would be lost, " + everywhere.counterexample,
     )
 
 
@@ -141,24 +156,25 @@ CLAIMS = (
         "in front of the cosine. Eq. (6) is solved from the correct form.",
         Check(
             lambda: check_distance(printed_distance(), corrected_squared_distance()),
-            printed=(Formula("tg", printed_distance().subs(_q4, sp.Symbol("theta4"))),),
-            corrected=(Formula("tg^2", corrected_squared_distance().subs(_q4, sp.Symbol("theta4"))),),
+            printed=(Formula("tg", in_angles(printed_distance())),),
+            corrected=(Formula("tg^2", in_angles(corrected_squared_distance())),),
         ),
         derivation="The wrist position of the chain, squared: every angle but θ4 drops out. The angle "
         "inside the triangle is 180° - θ4.",
         correction="tg² for tg, +2·l4·l3·cos θ4 for -2·l4·l3·cos θ4",
+        fault=Fault.MISPRINT,
     ),
     Claim(
         PAPER,
         "6",
         "elbow angle",
         Verdict.HOLDS,
-        "Right for an elbow that only flexes (0 to 180°, as a human one). A second solution, -θ4, reaches "
-        "the same point and is not mentioned. The argument leaves ±1 exactly when the target is out of "
+        "Holds because no elbow flexes backwards: of the two solutions, θ4 and -θ4, only the printed one is "
+        "inside the range of motion. The argument leaves ±1 exactly when the target is out of "
         "reach, so test it before taking the arc cosine.",
         Check(
             lambda: check_elbow(printed_cosine(_tg**2)),
-            printed=(Formula(r"\theta_4", r"\cos^{-1}\frac{tg^2 - l_4^2 - l_3^2}{2\,l_4\,l_3}"),),
+            printed=(Formula(r"\theta_4", acos(printed_cosine(_tg**2))),),
         ),
         derivation="Eq. (5), corrected, solved for cos θ4.",
     ),

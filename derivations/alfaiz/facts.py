@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import sympy as sp
+
+from derivations.alfaiz.exact_borders import Posture, with_borders, with_example
+from derivations.alfaiz.letters import in_letters
 from derivations.branch import Branch
 from derivations.claim import Evidence, Formula, Verdict
 from derivations.identity import Identity
@@ -45,25 +49,44 @@ def with_facts(evidence: Evidence, facts: tuple[Fact, ...]) -> Evidence:
 
 @dataclass(frozen=True, eq=False)
 class IdentityWithFacts(Identity):
-    """An identity, and what else the claim says.
+    """An identity, and what else the claim says; shown in the paper's letters.
 
     Attributes:
         facts: What else is checked.
-        shown: What to show as printed, in the paper's letters; empty shows `printed`.
+        example: A counterexample in the formula's own inputs, computed; None: the first of a grid.
+        names: What every entry of `printed` is said to be, in the paper's names, same shape; None: nothing.
+        names_first: Whether the paper puts the names before the equals sign.
+        letters: How `printed` is written with the paper's letters.
+        shown: What to show as printed where that cannot be made from `printed`; empty shows `printed`.
         shown_corrected: What to show as corrected; empty shows `corrected`.
     """
 
     facts: tuple[Fact, ...] = ()
+    example: Callable[[], str] | None = None
+    names: sp.Matrix | None = None
+    names_first: bool = True
+    letters: Callable[[sp.Matrix], sp.Matrix] = in_letters
     shown: tuple[Formula, ...] = ()
     shown_corrected: tuple[Formula, ...] = ()
 
     def check(self) -> Evidence:
         """Prove the identity, then the facts."""
-        return with_facts(super().check(), self.facts)
+        found = super().check()
+        if self.example is not None and found.counterexample:
+            found = replace(found, counterexample=self.example())
+        return with_facts(found, self.facts)
 
     def printed_formulas(self) -> tuple[Formula, ...]:
         """The printed equation, in the paper's letters."""
-        return self.shown or super().printed_formulas()
+        if self.shown:
+            return self.shown
+        forms = self.letters(self.printed)
+        if self.names is None:
+            return (Formula(self.symbol, forms[0] if len(forms) == 1 else forms),)
+        pairs = zip(self.names, forms, strict=True)
+        if self.names_first:
+            return tuple(Formula(sp.latex(name), form) for name, form in pairs)
+        return tuple(Formula(sp.latex(form), name) for name, form in pairs)
 
     def corrected_formulas(self) -> tuple[Formula, ...]:
         """The corrected equation, in the paper's letters."""
@@ -76,10 +99,15 @@ class BranchWithFacts(Branch):
 
     Attributes:
         facts: What else is checked.
+        borders: Postures in which a denominator of the printed form is exactly zero.
+        example: A posture in round numbers at which the printed form fails; None: the first of a grid.
     """
 
     facts: tuple[Fact, ...] = ()
+    borders: tuple[Posture, ...] = ()
+    example: Posture | None = None
 
     def check(self) -> Evidence:
-        """Check the branches, then the facts."""
-        return with_facts(super().check(), self.facts)
+        """Check the branches, exactly where rounding hides a case, then the facts."""
+        found = with_example(self, super().check(), self.example)
+        return with_facts(with_borders(self, found, self.borders), self.facts)

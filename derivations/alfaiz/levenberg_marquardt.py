@@ -14,7 +14,7 @@ from derivations.alfaiz.chain import Q
 from derivations.alfaiz.facts import Fact, with_facts
 from derivations.alfaiz.residuals import TARGET, position, printed_residual
 from derivations.alfaiz.target_pose import hand
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.identity import Identity
 
@@ -224,6 +224,7 @@ CLAIMS = (
         ),
         derivation="E = eᵀe of the arm, differentiated: ∇E = 2 Jᵀe, ∇²E = 2 JᵀJ + 2 Σ e_i ∇²e_i.",
         correction="factor 2 in both, or E = eᵀe/2",
+        fault=Fault.WORDING,
     ),
     Claim(
         PAPER,

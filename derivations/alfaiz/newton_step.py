@@ -13,7 +13,7 @@ from armik_sym.arm.catalog import alfaiz
 from armik_sym.symbolic.orientation import vee_of_difference
 from derivations.alfaiz.facts import Fact, with_facts
 from derivations.alfaiz.target_pose import hand
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 
 PAPER = "alfaiz"
@@ -240,6 +240,7 @@ CLAIMS = (
         derivation="e(q + δ) ≈ e + J δ = 0. With more joints than residuals many δ solve this, J⁺ gives the "
         "shortest. J from CasADi, differentiating (50) with (51) and (53) corrected.",
         correction="J⁺ instead of J⁻¹",
+        fault=Fault.MODEL,
     ),
     Claim(
         PAPER,

@@ -16,6 +16,7 @@ from derivations.alfaiz.axis_angle import (
     printed_l,
     vanishes,
 )
+from derivations.alfaiz.chain import Q
 from derivations.alfaiz.facts import BranchWithFacts, Fact, IdentityWithFacts
 from derivations.alfaiz.target_pose import (
     TURN,
@@ -23,7 +24,7 @@ from derivations.alfaiz.target_pose import (
     target_rotation,
     turn_axis,
 )
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.random_points import largest_difference
 
@@ -105,6 +106,16 @@ def printed_angle(length: sp.Expr, trace: sp.Expr) -> sp.Expr:
     return atan(length / (trace - 1))
 
 
+def _quarter_turn_about_x() -> str:
+    """Eq. (53) in its own inputs: joint 3 turned by 90° where its axis is the base's x axis."""
+    at = {TURN: pi / 2, Q[0]: pi, Q[1]: 0}
+    RT = sp.Matrix(difference_rotation().subs(at))
+    true = sp.Matrix((2 * sin(TURN) * turn_axis()).subs(at))
+    entries = ((1, 2), (2, 1), (1, 3), (3, 1), (2, 3), (3, 2))
+    inputs = ", ".join(f"r{i}{j} = {RT[i - 1, j - 1]}" for i, j in entries)
+    return f"quarter turn about x ({inputs}): printed {tuple(printed_l(RT))}, true {tuple(true)}"
+
+
 _LENGTH, _TRACE = 2 * sin(TURN), 1 + 2 * cos(TURN)
 
 CLAIMS = (
@@ -115,7 +126,9 @@ CLAIMS = (
         Verdict.CORRECTED,
         "The plain arc tangent is right for a misalignment δ below 90° only. Beyond, it returns δ - 180°: "
         "the residual points away from the target, shrinks as the hand turns further off and is zero at half "
-        "a turn, where an optimiser may stop and report success. At δ = 0 and δ = 180° it is 0/0.",
+        "a turn, where an optimiser may stop and report success. At δ = 0 and δ = 180° it is 0/0. The "
+        "derivative of the corrected "
+        "c is not minus the geometric Jacobian, see (50).",
         BranchWithFacts(
             "c(RT)",
             printed_angle(_LENGTH, _TRACE),
@@ -125,9 +138,10 @@ CLAIMS = (
             corrected=atan2(_LENGTH, _TRACE - 1),
             printed_text=r"\left[\frac{1}{\lVert l\rVert} "
             r"\tan^{-1}\frac{\lVert l\rVert}{r_{11}+r_{22}+r_{33}-1}\right] l",
-            corrected_text=r"\frac{\operatorname{atan2}\left(\lVert l\rVert,\ r_{11}+r_{22}+r_{33}-1\right)}"
+            corrected_text=r"\frac{\mathrm{atan2}\left(\lVert l\rVert,\ r_{11}+r_{22}+r_{33}-1\right)}"
             r"{\lVert l\rVert}\, l",
-            points=12,
+            inputs={"‖l‖": _LENGTH, "r11 + r22 + r33": _TRACE},
+            example={TURN: 2 * pi / 3},
             facts=(
                 Fact("‖l‖² = 4 sin²δ and trace - 1 = 2 cos δ (exact)", _length_and_trace),
                 Fact(
@@ -143,6 +157,7 @@ CLAIMS = (
         ),
         derivation="RT is taken between two postures of the arm that differ by δ in joint 3, so its angle is "
         "δ, and c must have the length δ. ‖l‖ and trace - 1 are sine and cosine of δ, each doubled.",
+        fault=Fault.BRANCH,
         correction="atan2(‖l‖, trace - 1) instead of the arc tangent of the quotient; c = l/2 for δ → 0, and "
         "for l = 0 with trace = -1 the axis from the columns of RT + I",
     ),
@@ -177,10 +192,13 @@ CLAIMS = (
             shown_corrected=(
                 Formula("l", corrected_l(sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"r_{i + 1}{j + 1}")))),
             ),
+            example=_quarter_turn_about_x,
             facts=(
                 Fact(
-                    "printed l = P · right l and, where R(θ) = R^d, ∂c/∂θ = -P J_ω, with P the reflection at "
-                    "x + z = 0; P² = I, so P cancels in JᵀJ and Jᵀe if J is the derivative of the printed "
+                    "printed l = P · right l and, where R(θ) = R^d, ∂c/∂θ = -P J_ω (elsewhere -P J_r⁻¹(c) "
+                    "J_ω, "
+                    "see (50)), with P the reflection at x + z = 0; P² = I, so P cancels in JᵀJ and Jᵀe if J "
+                    "is the derivative of the printed "
                     "residual (exact)",
                     lambda: (
                         is_mirrored(printed_l, MIRROR)
@@ -205,5 +223,6 @@ CLAIMS = (
         "are x, y, z. The corrected (51) and (53) are the residual of Sugihara (IEEE Trans. Robotics 27, "
         "2011), a later account of the method this paper compares with.",
         correction="l = (r32 - r23, r13 - r31, r21 - r12)",
+        fault=Fault.MISPRINT,
     ),
 )

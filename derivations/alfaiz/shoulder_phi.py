@@ -5,19 +5,17 @@ from __future__ import annotations
 import sympy as sp
 from sympy import atan, atan2, cos, pi, sin, tan
 
-from derivations.alfaiz.chain import Q, frame
-from derivations.alfaiz.exact_borders import check_with_borders
-from derivations.alfaiz.facts import IdentityWithFacts
-from derivations.alfaiz.shoulder_position import derived_k, regrouped
-from derivations.branch import Branch
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.alfaiz.chain import L3, L4, Q, frame
+from derivations.alfaiz.facts import BranchWithFacts, IdentityWithFacts
+from derivations.alfaiz.letters import in_angles
+from derivations.alfaiz.shoulder_position import DX, DZ, derived_k, of_the_arm
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.identity import Identity
 
 PAPER = "alfaiz"
 _q1 = Q[0]
 _sum, _phi = sp.symbols("sigma varphi", real=True)
 _r = sp.Symbol("r", positive=True)
-_dx, _dz = sp.symbols("dx dz", real=True)
 _HALF = (-pi / 2, pi / 2)
 
 
@@ -53,7 +51,7 @@ def corrected_theta1(dx: sp.Expr, dz: sp.Expr) -> sp.Expr:
     return atan2(-dx, dz) - _phi
 
 
-def theta1_branch() -> Branch:
+def theta1_branch() -> BranchWithFacts:
     """Eq. (20) for the wrist at (17), (18), r being a distance; σ = θ1 + φ.
 
     Returns:
@@ -63,15 +61,18 @@ def theta1_branch() -> Branch:
         Al-Faiz, eq. 17-20.
     """
     dx, dz = -_r * sin(_sum), _r * cos(_sum)
-    return Branch(
+    return BranchWithFacts(
         r"\theta_1",
         printed_theta1(dx, dz),
         _sum - _phi,
         {_sum: (-pi, pi), _phi: (-pi, pi), _r: (sp.Rational(1, 10), sp.Integer(1))},
         {_sum: _HALF},
         corrected_theta1(dx, dz),
-        printed_text=printed_theta1(_dx, _dz),
-        corrected_text=corrected_theta1(_dx, _dz),
+        printed_text=printed_theta1(DX, DZ),
+        corrected_text=corrected_theta1(DX, DZ),
+        inputs={"dx": dx, "dz": dz, "φ": _phi},
+        borders=({_sum: pi / 2, _phi: 0, _r: 1}, {_sum: -pi / 2, _phi: 0, _r: 1}),
+        example={_sum: pi, _phi: 0, _r: 1},
     )
 
 
@@ -96,21 +97,25 @@ def _printed_sums() -> sp.Matrix:
     )
 
 
-def _derived_sums() -> sp.Matrix:
-    position = regrouped(_r * cos(_phi), _r * sin(_phi))
-    return sp.Matrix.vstack(position, position)
+def in_polar(names: sp.Matrix) -> sp.Matrix:
+    """What stands behind dx and dz when k1 = r·cos φ and k2 = r·sin φ, for any r and φ.
+
+    Args:
+        names: SymPy matrix in dx and dz.
+
+    Returns:
+        The same for the chain with the lengths that give such k1 and k2; both are linear in the lengths.
+
+    Source:
+        Al-Faiz, eq. 11-14, through `armik_sym.symbolic`.
+    """
+    polar = derived_k() - sp.Matrix([_r * cos(_phi), _r * sin(_phi)])
+    (lengths,) = sp.linsolve(list(polar), [L3, L4])
+    return of_the_arm(names).subs(dict(zip((L3, L4), lengths, strict=True)), simultaneous=True)
 
 
-def _tangent_of_sum() -> sp.Matrix:
-    tangent = derived_k()[1] / derived_k()[0]
-    return sp.Matrix([(tan(_q1) + tangent) / (1 - tan(_q1) * tangent)])
-
-
-_P = frame(5)[:3, 3]
-_DZ_ZERO = [
-    {_sum: pi / 2, _phi: 0, _r: 1},
-    {_sum: -pi / 2, _phi: 0, _r: 1},
-]
+_SUMS = sp.Matrix([-DX, DZ, -DX, DZ])
+_TANGENT = sp.Matrix([-DX / DZ])
 
 CLAIMS = (
     Claim(
@@ -135,15 +140,13 @@ CLAIMS = (
         "Polar coordinates turn joint 1 into an addition of angles: the wrist's azimuth is θ1 + φ.",
         IdentityWithFacts(
             _printed_sums(),
-            _derived_sums(),
-            shown=(
-                Formula(r"r\sin\theta_1\cos\varphi + r\cos\theta_1\sin\varphi", "-dx"),
-                Formula(r"r\cos\theta_1\cos\varphi - r\sin\theta_1\sin\varphi", "dz"),
-                Formula(r"r\sin(\theta_1 + \varphi)", "-dx"),
-                Formula(r"r\cos(\theta_1 + \varphi)", "dz"),
-            ),
+            in_polar(_SUMS),
+            names=_SUMS,
+            names_first=False,
+            letters=in_angles,
         ),
-        derivation="Eq. (13), (14) in (11), (12), then the addition theorems.",
+        derivation="dx and dz of the chain, in which l3 and l4 are chosen so that k1 = r·cos φ and "
+        "k2 = r·sin φ; r, φ and all joint angles stay arbitrary.",
     ),
     Claim(
         PAPER,
@@ -153,11 +156,13 @@ CLAIMS = (
         "Holds where dz ≠ 0. It says less than (17) and (18) together: turning the wrist by half a turn "
         "about the vertical does not change it.",
         IdentityWithFacts(
-            sp.Matrix([-_P[0] / _P[2]]),
-            _tangent_of_sum(),
-            shown=(Formula(r"\tan(\theta_1 + \varphi)", r"-\frac{dx}{dz}"),),
+            sp.Matrix([tan(_q1 + _phi)]),
+            in_polar(_TANGENT),
+            names=_TANGENT,
+            names_first=False,
+            letters=in_angles,
         ),
-        derivation="Eq. (17) over (18); checked with tan φ = k2/k1.",
+        derivation="Eq. (17) over (18); checked with dx and dz of the chain as there.",
     ),
     Claim(
         PAPER,
@@ -167,12 +172,9 @@ CLAIMS = (
         "With r as a distance, right only for dz > 0: for dz < 0 it is half a turn off, and for dz = 0 it is "
         "right on one side (dx > 0). With the signed r of (21), (17) and (18) hold all the "
         "same, but the φ that belongs to a posture then jumps by half a turn wherever a path crosses dz = 0.",
-        Check(
-            lambda: check_with_borders(theta1_branch(), _DZ_ZERO),
-            printed=theta1_branch().printed_formulas(),
-            corrected=theta1_branch().corrected_formulas(),
-        ),
+        theta1_branch(),
         derivation="Eq. (17), (18) solved for θ1 + φ with both signs kept. σ stands for θ1 + φ.",
         correction="θ1 = atan2(-dx, dz) - φ, with r = sqrt(dx² + dz²)",
+        fault=Fault.BRANCH,
     ),
 )

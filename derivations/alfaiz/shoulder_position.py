@@ -9,6 +9,7 @@ from sympy import cos, pi, sin
 
 from derivations.alfaiz.chain import L3, L4, Q, frame
 from derivations.alfaiz.facts import IdentityWithFacts
+from derivations.alfaiz.letters import in_letters
 from derivations.claim import Check, Claim, Evidence, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.identity import Identity
@@ -16,6 +17,7 @@ from derivations.random_points import first_difference
 
 PAPER = "alfaiz"
 _q1, _q2, _q3, _q4 = Q[:4]
+DX, DY, DZ, K1, K2 = sp.symbols("dx dy dz k_1 k_2", real=True)
 _OFFSET = {_q2: _q2 + pi / 2}
 
 # Which angle stands behind each subscript of eq. (7) and (8) that text extraction has damaged.
@@ -131,6 +133,22 @@ def derived_k() -> sp.Matrix:
     return sp.Matrix([p[2], -p[0]])
 
 
+def of_the_arm(names: sp.Matrix) -> sp.Matrix:
+    """What stands behind the names dx, dy, dz, k1 and k2.
+
+    Args:
+        names: SymPy matrix in these names.
+
+    Returns:
+        The same in the angles and lengths of the chain.
+
+    Source:
+        Al-Faiz, eq. 3 and 11-12, through `armik_sym.symbolic`.
+    """
+    values = zip((DX, DY, DZ, K1, K2), (*frame(5)[:3, 3], *derived_k()), strict=True)
+    return names.subs(dict(values), simultaneous=True)
+
+
 def check_coordinate(
     form: Callable[[], sp.Expr], row: int, readings: Callable[[Reading], sp.Expr]
 ) -> Evidence:
@@ -178,9 +196,7 @@ def _stacked(third: sp.Symbol) -> sp.Matrix:
     return sp.Matrix.vstack(regrouped(*k), k)
 
 
-_K1 = "(l_3 c_4 s_3 + l_4 s_3)"
-_K2 = "(l_3 c_4 c_3 s_2 + l_3 c_2 s_4 + l_4 c_3 s_2)"
-_PLACE = frame(5)[:3, 3]
+_NOT_SEEN = "Read with the subscripts that make it true; the print itself was not seen."
 _OFFSET_WORDS = "Here θ2 is the joint variable q2, not the θ2 = q2 + 90° of Table 1 and A_2."
 
 CLAIMS = (
@@ -190,9 +206,12 @@ CLAIMS = (
         "x of the wrist",
         Verdict.HOLDS,
         "Holds, once the subscripts are read right. " + _OFFSET_WORDS,
-        Check(lambda: check_coordinate(printed_dx, 0, printed_dx), printed=(Formula("dx", printed_dx()),)),
+        Check(
+            lambda: check_coordinate(printed_dx, 0, printed_dx),
+            printed=(Formula("dx", in_letters(printed_dx())),),
+        ),
         derivation="Last column of A_1 … A_5; the wrist joints do not move their own centre.",
-        extraction="stored with s1·s2 + c1·c2·s2 for s1·s3 + c1·c3·s2 (twice)",
+        extraction="Stored with s1·s2 + c1·c2·s2 for s1·s3 + c1·c3·s2 (twice). " + _NOT_SEEN,
     ),
     Claim(
         PAPER,
@@ -200,9 +219,12 @@ CLAIMS = (
         "z of the wrist",
         Verdict.HOLDS,
         "Holds, once the subscripts are read right. " + _OFFSET_WORDS,
-        Check(lambda: check_coordinate(printed_dz, 2, printed_dz), printed=(Formula("dz", printed_dz()),)),
+        Check(
+            lambda: check_coordinate(printed_dz, 2, printed_dz),
+            printed=(Formula("dz", in_letters(printed_dz())),),
+        ),
         derivation="As eq. (7).",
-        extraction="stored with c1·s2 - c2·s1·s2 for c1·s3 - c3·s1·s2 (twice)",
+        extraction="Stored with c1·s2 - c2·s1·s2 for c1·s3 - c3·s1·s2 (twice). " + _NOT_SEEN,
     ),
     Claim(
         PAPER,
@@ -213,17 +235,14 @@ CLAIMS = (
         "All four hold; k1 does not contain θ2, which is what makes the method work.",
         IdentityWithFacts(
             _stacked(_q3),
-            sp.Matrix([-_PLACE[0], _PLACE[2], *derived_k()]),
+            of_the_arm(sp.Matrix([-DX, DZ, K1, K2])),
             extracted=_stacked(_q2),
-            shown=(
-                Formula("-dx", "s_1 " + _K1 + " + c_1 " + _K2),
-                Formula("dz", "c_1 " + _K1 + " - s_1 " + _K2),
-                Formula("k_1", _K1),
-                Formula("k_2", _K2),
-            ),
+            names=sp.Matrix([-DX, DZ, K1, K2]),
         ),
         derivation="Eq. (7) and (8), sorted by s1 and c1. For k1 and k2 alone: dz and -dx at θ1 = 0.",
-        extraction="stored with s2, c2 for s3, c3 in k1 and k2",
+        extraction="All four rows stored with s2, c2 for s3, c3: the first (9) and (10), for -dx and dz, as "
+        "well "
+        "as k1 and k2. " + _NOT_SEEN,
     ),
     Claim(
         PAPER,
@@ -233,9 +252,11 @@ CLAIMS = (
         "(k1, k2) are the horizontal coordinates of the wrist before joint 1 turns them: dz and -dx at "
         "θ1 = 0.",
         IdentityWithFacts(
-            regrouped(*derived_k()),
-            sp.Matrix([-_PLACE[0], _PLACE[2]]),
-            shown=(Formula("s_1 k_1 + c_1 k_2", "-dx"), Formula("c_1 k_1 - s_1 k_2", "dz")),
+            regrouped(k1(), k2()),
+            of_the_arm(sp.Matrix([-DX, DZ])),
+            names=sp.Matrix([-DX, DZ]),
+            names_first=False,
+            letters=lambda form: in_letters(form, {k2(): K2, k1(): K1}),
         ),
         derivation="Joint 1 turns about the vertical y axis. (The text says k1, k2 were put into (7), (8); "
         "it means the first (9), (10).)",
@@ -248,7 +269,7 @@ CLAIMS = (
         "Holds as stored. " + _OFFSET_WORDS,
         Check(
             lambda: check_coordinate(printed_dy, 1, lambda _: printed_dy()),
-            printed=(Formula("dy", printed_dy()),),
+            printed=(Formula("dy", in_letters(printed_dy())),),
         ),
         derivation="As eq. (7).",
     ),

@@ -8,7 +8,7 @@ import numpy as np
 import sympy as sp
 from sympy import atan, atan2, cos, pi, sin, sqrt
 
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.random_points import evaluate
 
 PAPER = "alfaiz"
@@ -148,12 +148,13 @@ CLAIMS = (
         "to another posture.",
         Check(
             lambda: check_radius(PRINTED, CORRECTED),
-            printed=(Formula("r", r"\frac{-dx}{\sin(\theta_1 + \varphi)}"),),
+            printed=(Formula("r", PRINTED.radius.subs(SIGMA, sum(sp.symbols("theta_1 varphi")))),),
             corrected=(Formula("r", CORRECTED.radius),),
         ),
         derivation="Eq. (17) solved for r. Mixing one printed and one corrected formula is what really goes "
         "wrong: atan2 with (21) fails for dx = 0 only, but the printed arc tangent with r = sqrt(dx² + dz²) "
         "puts the wrist on the opposite side for dz < 0.",
         correction="r = sqrt(dx² + dz²), together with atan2 in (20)",
+        fault=Fault.BRANCH,
     ),
 )

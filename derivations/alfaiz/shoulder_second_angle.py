@@ -7,17 +7,17 @@ from sympy import atan, atan2, cos, pi, sin
 
 from derivations.alfaiz.chain import L3, L4, Q, frame
 from derivations.alfaiz.elbow_angle import printed_cosine
-from derivations.alfaiz.exact_borders import check_with_borders
-from derivations.alfaiz.facts import IdentityWithFacts
-from derivations.alfaiz.shoulder_position import derived_k
-from derivations.branch import Branch
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.alfaiz.facts import BranchWithFacts, IdentityWithFacts
+from derivations.alfaiz.letters import in_angles, in_letters
+from derivations.alfaiz.shoulder_position import DY, K2, of_the_arm
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.identity import Identity
 
 PAPER = "alfaiz"
 _q2, _q3, _q4 = Q[1:4]
-_k3, _k4, _k5, _k6 = sp.symbols("k3:7", real=True)
+_k3, _k4, _k5, _k6 = sp.symbols("k_3:7", real=True)
+_K2_AND_DY = sp.Matrix([K2, DY])
 _HALF = (-pi / 2, pi / 2)
 
 
@@ -70,7 +70,7 @@ def k2_and_dy() -> sp.Matrix:
     Source:
         Al-Faiz, eq. 10 and 23, through `armik_sym.symbolic`.
     """
-    return sp.Matrix([derived_k()[1], frame(5)[1, 3]])
+    return of_the_arm(_K2_AND_DY)
 
 
 def printed_rearrangement() -> sp.Matrix:
@@ -171,7 +171,7 @@ def printed_theta2(k5: sp.Expr, k6: sp.Expr) -> sp.Expr:
     return sp.Piecewise((atan(k5 / k6), sp.Ne(k6, 0)), (pi / 2, True))
 
 
-def theta2_branch() -> Branch:
+def theta2_branch() -> BranchWithFacts:
     """Eq. (35) with k5, k6 as (33), (34) have them.
 
     Returns:
@@ -180,7 +180,7 @@ def theta2_branch() -> Branch:
     Source:
         Al-Faiz, eq. 33-35.
     """
-    return Branch(
+    return BranchWithFacts(
         r"\theta_2",
         printed_theta2(sin(_q2), cos(_q2)),
         _q2,
@@ -189,12 +189,14 @@ def theta2_branch() -> Branch:
         atan2(sin(_q2), cos(_q2)),
         printed_text=printed_theta2(_k5, _k6),
         corrected_text=atan2(_k5, _k6),
-        points=15,
+        inputs={"k5": sin(_q2), "k6": cos(_q2)},
+        borders=({_q2: pi / 2}, {_q2: -pi / 2}),
+        example={_q2: pi},
     )
 
 
-_SIDES = r"\begin{bmatrix} k_3 & k_4 \\ k_4 & -k_3 \end{bmatrix}"
-_RIGHT = r"\begin{bmatrix} k_2 \\ dy \end{bmatrix}"
+_SIDES = sp.latex(printed_system(_k3, _k4), mat_delim="[")
+_RIGHT = sp.latex(_K2_AND_DY, mat_delim="[")
 
 CLAIMS = (
     Claim(
@@ -206,10 +208,8 @@ CLAIMS = (
         IdentityWithFacts(
             printed_rearrangement(),
             k2_and_dy(),
-            shown=(
-                Formula("s_2 (l_3 c_4 c_3 + l_4 c_3) + c_2 (l_3 s_4)", "k_2"),
-                Formula("-c_2 (l_3 c_4 c_3 + l_4 c_3) + s_2 (l_3 s_4)", "dy"),
-            ),
+            names=_K2_AND_DY,
+            names_first=False,
         ),
         derivation="Eq. (10) and (23), sorted.",
     ),
@@ -220,7 +220,7 @@ CLAIMS = (
         Verdict.DEFINITION,
         "Two abbreviations, known once θ3 and θ4 are. k3 takes the sign of cos θ3: the two branches of θ3 "
         "lead to different θ2.",
-        definition=(Formula("k_3", printed_k3()), Formula("k_4", printed_k4())),
+        definition=(Formula("k_3", in_letters(printed_k3())), Formula("k_4", in_letters(printed_k4()))),
     ),
     Claim(
         PAPER,
@@ -231,7 +231,9 @@ CLAIMS = (
         IdentityWithFacts(
             printed_system(printed_k3(), printed_k4()) * sp.Matrix([sin(_q2), cos(_q2)]),
             k2_and_dy(),
-            shown=(Formula("s_2 k_3 + c_2 k_4", "k_2"), Formula("-c_2 k_3 + s_2 k_4", "dy")),
+            names=_K2_AND_DY,
+            names_first=False,
+            letters=lambda form: in_letters(form, {printed_k3(): _k3, printed_k4(): _k4}),
         ),
         derivation="Eq. (26), (27) in (24), (25).",
     ),
@@ -260,9 +262,11 @@ CLAIMS = (
         Verdict.HOLDS,
         "Hold wherever the matrix of (30) can be inverted.",
         IdentityWithFacts(
-            k5_and_k6(),
             sp.Matrix([sin(_q2), cos(_q2)]),
-            shown=(Formula(r"\sin\theta_2", "k_5"), Formula(r"\cos\theta_2", "k_6")),
+            k5_and_k6(),
+            names=sp.Matrix([_k5, _k6]),
+            names_first=False,
+            letters=in_angles,
         ),
         derivation="Eq. (32) with k2 and dy of the chain.",
     ),
@@ -274,12 +278,9 @@ CLAIMS = (
         "Sine and cosine are both known and their signs are thrown away: for cos θ2 < 0 the result is half a "
         "turn off, and for k6 = 0 it is right only if k5 = +1. The wrist joints cannot "
         "make up for it; only another φ, one with cos θ2 > 0, can.",
-        Check(
-            lambda: check_with_borders(theta2_branch(), [{_q2: pi / 2}, {_q2: -pi / 2}]),
-            printed=theta2_branch().printed_formulas(),
-            corrected=theta2_branch().corrected_formulas(),
-        ),
+        theta2_branch(),
         derivation="Eq. (33), (34): θ2 is the angle of the vector (k6, k5).",
         correction="θ2 = atan2(k5, k6)",
+        fault=Fault.BRANCH,
     ),
 )

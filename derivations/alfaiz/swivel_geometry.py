@@ -2,7 +2,7 @@ r"""The elbow circle of the arm of Al-Faiz, in numbers.
 
 For a wrist at w the elbow lies on a circle about the line shoulder-wrist. ψ (swivel angle) counts along it,
 from the lowest point, right-handed about w. β is the elevation of w above the horizontal plane, γ the angle
-at the shoulder between upper arm and w: tan γ = l3·sin θ4 / (l4 + l3·cos θ4).
+at the shoulder between upper arm and w: tan γ = l3·|sin θ4| / (l4 + l3·cos θ4).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class ElbowCircle:
 
     @property
     def gamma(self) -> float:
-        """γ in [rad], elbow flexed (θ4 ≥ 0)."""
+        """γ in [rad], between 0 and π, whatever the sign of θ4."""
         distance = np.linalg.norm(self.wrist)
         l4, l3 = self.lengths.l4, self.lengths.l3
         return float(np.arccos((l4**2 + distance**2 - l3**2) / (2 * l4 * distance)))

@@ -8,8 +8,9 @@ import sympy as sp
 from sympy import cos, sin, tan
 
 from derivations.alfaiz.chain import L3, L4, Q, frame
+from derivations.alfaiz.letters import in_angles
 from derivations.alfaiz.shoulder_position import derived_k
-from derivations.alfaiz.swivel_numbers import BETA, GAMMA, POINTS, PSI, first_miss
+from derivations.alfaiz.swivel_numbers import BETA, GAMMA, POINTS, PSI, first_miss, first_miss_of_gamma
 from derivations.claim import Check, Claim, Evidence, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.identity import Identity
@@ -42,11 +43,27 @@ def tangent_of_phi(
     return tan_gamma * cos_beta - sin_beta * cos_psi, sin_psi
 
 
-def check_swivel(ratio: Ratio) -> Evidence:
+def tangent_of_gamma(theta4: sp.Expr) -> sp.Expr:
+    """Give tan γ = l3·|sin θ4| / (l4 + l3·cos θ4); negative for γ above 90°.
+
+    Args:
+        theta4: Elbow angle, of either sign.
+
+    Returns:
+        SymPy expression.
+
+    Source:
+        None (derived here).
+    """
+    return L3 * sp.Abs(sin(theta4)) / (L4 + L3 * cos(theta4))
+
+
+def check_swivel(ratio: Ratio, gamma: Callable[[sp.Expr], sp.Expr] = tangent_of_gamma) -> Evidence:
     """The geometry and tan φ exactly in the joint angles; range, fold and both directions in numbers.
 
     Args:
         ratio: The statement: numerator and denominator of tan φ.
+        gamma: The statement: tan γ from θ4.
 
     Returns:
         The evidence.
@@ -62,14 +79,16 @@ def check_swivel(ratio: Ratio) -> Evidence:
         return found
     if not all(is_exactly_zero(entry) for entry in _fold(ratio)):
         return Evidence(Verdict.FALSE, "dφ/dψ does not vanish at the end of the range of φ")
-    miss = first_miss(*ratio(sin(PSI), cos(PSI), sin(BETA), cos(BETA), tan(GAMMA)))
+    stated = ratio(sin(PSI), cos(PSI), sin(BETA), cos(BETA), tan(GAMMA))
+    miss = first_miss_of_gamma(gamma(_q4), _q4, (L4, L3)) or first_miss(*stated)
     if miss:
         return Evidence(Verdict.FALSE, "fails in numbers", miss)
     return Evidence(
         Verdict.ADDED,
         f"tan φ in the joint angles of the chain: {found.proof}; n·w = (l3·c4 + l4)·s3, e - λw at right "
         "angles to n and to e, and where dφ/dψ = 0: exactly; with the joint angles of the chain in CasADi at "
-        f"{POINTS} random postures: φ from ψ is φ of the posture or its opposite, every ψ is reached with "
+        f"{POINTS} random postures, θ4 of both signs: tan γ is that of the triangle, φ from ψ is φ of the "
+        "posture or its opposite, every ψ is reached with "
         "both, every φ in range has two elbows, mirror images in the plane of w and n, and every φ out of "
         "range has none",
     )
@@ -99,7 +118,7 @@ def _geometry() -> list[sp.Expr]:
 def _exact_ratio(ratio: Ratio) -> tuple[sp.Expr, sp.Expr]:
     """Tangent of φ as stated, and k2/k1; both in joint angles with every square root cancelled.
 
-    With the circle's radius ρ = l3·l4·s4/tg and h = (dx, 0, dz)/r: ρ·sin ψ = e·(up × h), ρ·cos ψ =
+    With the circle's radius ρ = l3·l4·|s4|/tg and h = (dx, 0, dz)/r: ρ·sin ψ = e·(up × h), ρ·cos ψ =
     e·(h·sin β - up·cos β). The ratio is homogeneous in (sin ψ, cos ψ, tan γ), so all three come multiplied
     by ρ; numerator and denominator are then multiplied by r, and only r² and tg² remain.
     """
@@ -108,7 +127,8 @@ def _exact_ratio(ratio: Ratio) -> tuple[sp.Expr, sp.Expr]:
     r, tg = sp.symbols("r_ tg_", positive=True)
     sin_psi = (e[0] * w[2] - e[2] * w[0]) / r
     cos_psi = (w[1] / tg) * (e[0] * w[0] + e[2] * w[2]) / r - (r / tg) * e[1]
-    tan_gamma = L3**2 * L4 * sin(_q4) ** 2 / (tg * (L4 + L3 * cos(_q4)))
+    rho = L3 * L4 * sp.Abs(sin(_q4)) / tg
+    tan_gamma = rho * tangent_of_gamma(_q4)
     above, below = ratio(sin_psi, cos_psi, w[1] / tg, r / tg, tan_gamma)
     even = sp.expand(above * r).subs({r**2: r2, tg**-2: 1 / tg2}) / sp.expand(below * r)
     return even, derived_k()[1] / derived_k()[0]
@@ -141,7 +161,7 @@ CLAIMS = (
             lambda: check_swivel(tangent_of_phi),
             printed=(
                 Formula(r"\tan\varphi", _SHOWN[0] / _SHOWN[1]),
-                Formula(r"\tan\gamma", r"\frac{l_3 \sin\theta_4}{l_4 + l_3 \cos\theta_4}"),
+                Formula(r"\tan\gamma", in_angles(tangent_of_gamma(_q4))),
                 Formula(r"|\cos\varphi|", r"\frac{|\cos\gamma|}{\cos\beta}", r"\le"),
             ),
         ),

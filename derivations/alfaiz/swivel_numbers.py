@@ -31,9 +31,7 @@ def first_miss(above: sp.Expr, below: sp.Expr) -> str:
     """
     rng = np.random.default_rng(0)
     for k in range(POINTS):
-        lengths = _LENGTHS[k % len(_LENGTHS)]
-        q = rng.uniform(-np.pi, np.pi, 7)
-        q[3] = rng.uniform(_FLEXED, np.pi - _FLEXED)
+        lengths, q = _posture(k, rng)
         T = pose(q, lengths)
         circle = ElbowCircle(T[:3, 3], lengths)
         own, other = circle.psi(elbow_frame(q, lengths)[:3, 3]), rng.uniform(-np.pi, np.pi)
@@ -47,6 +45,37 @@ def first_miss(above: sp.Expr, below: sp.Expr) -> str:
         if miss:
             return f"{miss}, {where}"
     return ""
+
+
+def first_miss_of_gamma(tangent: sp.Expr, theta4: sp.Symbol, lengths: tuple[sp.Symbol, sp.Symbol]) -> str:
+    """The first random posture at which tan γ is not that of the triangle shoulder, elbow, wrist.
+
+    Args:
+        tangent: tan γ.
+        theta4: The elbow angle in it.
+        lengths: Upper arm and forearm in it.
+
+    Returns:
+        What fails, in words; empty if nothing does.
+
+    Source:
+        None (random testing).
+    """
+    rng = np.random.default_rng(0)
+    for k in range(POINTS):
+        arm, q = _posture(k, rng)
+        (stated,) = evaluate(tangent, [theta4, *lengths], np.array([[q[3], arm.l4, arm.l3]]))
+        gamma = ElbowCircle(pose(q, arm)[:3, 3], arm).gamma
+        if abs(stated * np.cos(gamma) - np.sin(gamma)) > _CLOSE:
+            return f"tan γ is {np.tan(gamma):.3f}, stated {stated:.3f}, at θ4 = {q[3]:.3f}"
+    return ""
+
+
+def _posture(k: int, rng: np.random.Generator) -> tuple[Lengths, np.ndarray]:
+    """Lengths and a random posture; θ4 of either sign."""
+    q = rng.uniform(-np.pi, np.pi, 7)
+    q[3] = rng.choice([-1, 1]) * rng.uniform(_FLEXED, np.pi - _FLEXED)
+    return _LENGTHS[k % len(_LENGTHS)], q
 
 
 def _miss_of_elbows(T: np.ndarray, psi: float, phi: float, circle: ElbowCircle) -> str:

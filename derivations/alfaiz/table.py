@@ -11,7 +11,7 @@ from sympy import cos, pi, sin
 
 from derivations.alfaiz.chain import L3, L4, OFFSETS, Q, frame
 from derivations.alfaiz.elementary_transforms import modified_row
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.identity import Identity
 from derivations.random_points import first_difference
 
@@ -165,6 +165,7 @@ CLAIMS = (
         derivation="Eq. (2) is written out for every row (d = 0 throughout) and compared with A_1 … A_7. "
         "L4 is the upper arm, l4 in the equations; L5 is the forearm, l5 in A_5 but l3 from eq. (5) on.",
         correction="α6 = +π/2",
+        fault=Fault.MISPRINT,
     ),
     Claim(
         PAPER,

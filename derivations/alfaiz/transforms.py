@@ -8,7 +8,7 @@ import sympy as sp
 from sympy import cos, sin
 
 from derivations.alfaiz.elementary_transforms import homogeneous, modified_row, rot_x, rot_z, shift
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.identity import Identity
 
 PAPER = "alfaiz"
@@ -142,6 +142,7 @@ CLAIMS = (
         derivation="Both products are multiplied out for an arbitrary rotation (turns about z, x, z) and an "
         "arbitrary shift. Only eq. (2) is used later; it multiplies in its own order.",
         correction="exchange the factors: trans · rot = [R, t; 0, 1]",
+        fault=Fault.WORDING,
         extraction="in the stored matrix of trans the block t (3 × 1) stands in one row of the last column; "
         "rot and trans side by side are read as a product",
     ),
@@ -163,5 +164,6 @@ CLAIMS = (
         ),
         derivation="The four elementary transforms are multiplied out and compared with the printed matrix.",
         correction="Rot_x,α for Rot_z,α; a for b",
+        fault=Fault.MISPRINT,
     ),
 )

@@ -22,6 +22,7 @@ def claims() -> tuple[Claim, ...]:
         angle_conversion,
         cost,
         crossover,
+        dh_table,
         elbow_direction,
         final_scaling_factor,
         forward_kinematics,
@@ -33,6 +34,7 @@ def claims() -> tuple[Claim, ...]:
 
     modules = (
         range_of_motion,
+        dh_table,
         forward_kinematics,
         elbow_direction,
         angle_conversion,

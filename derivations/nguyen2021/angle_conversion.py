@@ -13,8 +13,9 @@ from armik_sym.symbolic.elbow_direction import (
     device_elbow_direction,
     device_to_human,
     human_elbow_direction,
+    shoulder_angles,
 )
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.exact_zero import is_exactly_zero
 from derivations.nguyen2021.elbow_direction import P, device_B, human_C
 from derivations.nguyen2021.printed_conversion import Conversion, conversion, q1, q2, q3, root_2, under_root_1
@@ -174,7 +175,11 @@ def agrees_with_simplified(reading: Conversion) -> bool:
 
 
 def undefined_where_stated(reading: Conversion) -> bool:
-    """Whether q'1 is 0/0 at q2 = 0, cos q1 > 0, and q'3 divides by B23, which is w·sin q'3.
+    """Whether the half-angle form is 0/0 exactly where the ledger says.
+
+    q'1: 0/0 at q2 = 0, cos q1 > 0, as its denominator is (1 + t²)(1 + u²) sin q2. q'3: it divides by B23,
+    which is w·sin q'3. tan(q1/2) has its pole at 180°, u at q2 = -90°. The matrix itself: w = 0 at q1 = ±90°,
+    q2 = 0.
 
     Args:
         reading: Arguments of the arc tangents, rational in tangents and w.
@@ -191,7 +196,38 @@ def undefined_where_stated(reading: Conversion) -> bool:
     both = numerator.subs({q2: 0, w: cos(q1)}, simultaneous=True)  # w = |cos q1| there
     below = sp.fraction(reading.x3)[1]
     factor = (1 + sin(q2)) / (cos(q1 / 2) * cos(q2 / 2) * cos(q3 / 2)) ** 2
-    return all(is_exactly_zero(zero) for zero in (vanishes, both, below + factor * device_B()[1, 2]))
+    poles = t.subs(q1, sp.pi) is sp.zoo and u.subs(q2, -sp.pi / 2) is sp.zoo
+    singular = all(ROOTS[w].subs({q1: side * sp.pi / 2, q2: 0}) == 0 for side in (1, -1))
+    zeros = (vanishes, both, below + factor * device_B()[1, 2])
+    return poles and singular and all(is_exactly_zero(zero) for zero in zeros)
+
+
+def wrong_without_warning() -> bool:
+    """Whether the half-angle form answers q'2 = 0 at q1 = 180°, q2 = 0.5, where q'2 is -90°.
+
+    Returns:
+        True if it does so in double precision.
+
+    Source:
+        Nguyen 2021, eq. 8.
+    """
+    (angle,) = evaluate(corrected().angles()[1], [q1, q2, q3], np.array([[np.pi, 0.5, 0.3]]))
+    return abs(angle) < _CLOSE
+
+
+def beyond_the_branch() -> bool:
+    """Whether 120° of pure abduction comes out as flexion 180°, abduction 60°, rotation -180°.
+
+    Returns:
+        True if it does.
+
+    Source:
+        Nguyen 2021, eq. 8.
+    """
+    q = ca.SX.sym("q", 3)
+    convert = ca.Function("convert", [q], [shoulder_angles(device_to_human(q, ca.SX(0))[:3])])
+    found = np.rad2deg(np.asarray(convert(np.deg2rad([120, 0, 0]))).ravel())
+    return bool(np.abs(np.remainder(found - [180, 60, 180] + 180, 360) - 180).max() < _CLOSE)
 
 
 def _check() -> Evidence:
@@ -206,6 +242,8 @@ def _check() -> Evidence:
         and proves(rational(), H * device_B() * H)
         and agrees_with_simplified(corrected())
         and undefined_where_stated(rational())
+        and wrong_without_warning()
+        and beyond_the_branch()
     )
     others = "; ".join(
         f"root {'+' if root > 0 else '-'}, q'2 {'as printed' if second < 0 else 'without its minus'}: "
@@ -265,17 +303,25 @@ CLAIMS = (
         "8",
         "human shoulder angles from device angles",
         Verdict.CORRECTED,
-        "Not a solution of anything as printed; with one exponent mended it solves H B(q) H = C(q'), "
-        'H = diag(-1, 1, -1), and not "B3 = C3": the zero of q\' is turned by half a turn about y in base '
-        "and arm. It always takes the branch -180° < q'2 < 0. It loses no quadrant, but it is 0/0 whenever "
-        "q2 = 0 and |q1| < 90° (pure abduction, the hanging arm included), whenever q'3 = 0, and at "
-        "q1 = 180° or q2 = -90°: program the atan2 form instead.",
+        "As printed it solves none of the four conditions below. With one exponent mended it solves "
+        "H B(q) H = C(q'), H = diag(-1, 1, -1), and not \"B3 = C3\": the zero of q' is turned by half a turn "
+        "about y in base and arm. It always takes the branch -180° < q'2 < 0, that is at most 90° of "
+        "abduction: 120° of pure abduction, q = (120°, 0, 0), becomes flexion 180°, abduction 60°, rotation "
+        "-180°, outside Table 2, although (0°, 120°, 0°) is inside. The half-angle tangents lose no "
+        "quadrant, but are 0/0 for q2 = 0 with |q1| < 90° (the hanging arm included), for q'3 = 0, and at "
+        "q1 = 180° or q2 = -90°; in double precision they then answer wrongly without a warning (q1 = 180°, "
+        "q2 = 0.5: q'2 = 0 for -90°). Program the atan2 form. It too is undefined at the true singularity, "
+        "the arm straight out to a side (q1 = ±90°, q2 = 0), where only q'1 ± q'3 is determined: "
+        "`armik_sym.elbow` then keeps q'1 of a neighbour.",
         Check(_check, _printed(), simplified()),
         derivation="The second column of H B H against that of C gives q'1 and q'2, the second row q'3, with "
-        "sin q'2 = -w.",
+        "sin q'2 = -w. The two solutions are q' and (q'1 + 180°, -q'2, q'3 + 180°). The shipped form takes "
+        "q'2 = -atan2(w, B22) with w = √(B12² + B32²), which keeps all digits near the singularity.",
         correction="under the root of q'1 write 4·tan(q1/2)·tan(q2/2 - π/4), not 4·tan(q1/2)²·…, twice; "
         'better, the quadrant-safe form below, which is `armik_sym.elbow.device_to_human`. For "B3 = C3" '
         "literally, drop the minus in front of q'2 as well",
-        extraction='"tan(q2/2 - pi + ((" has lost "/4)": read tan(q2/2 - π/4) + ((…',
+        extraction='"tan(q2/2 - pi + ((" has lost "/4)": read tan(q2/2 - π/4) + ((…. Whether the exponent is '
+        "the printer's or the extraction's cannot be told from the text",
+        fault=Fault.MISPRINT,
     ),
 )

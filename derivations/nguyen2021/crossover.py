@@ -15,12 +15,35 @@ P, C = sp.symbols("P c", positive=True)
 _P0 = sp.Symbol("P_0", positive=True)
 _G = sp.Symbol("G", integer=True, nonnegative=True)
 _K = sp.Symbol("k", integer=True, positive=True)
-PRINTED_TAU = sp.Rational(1, 10)
+PRINTED_TAU_TEXT = "0.10"
+PRINTED_TAU = sp.Rational(PRINTED_TAU_TEXT)
 _GENERATIONS = 5
 _ROUNDING = 1e-9
 
-# Probability that CR ≤ c in the next generation, if it is P in this one: eq. (15) as printed.
-PRINTED_RULE = TAU * C + (1 - TAU) * P
+RAND_1, RAND_2, CR = sp.symbols("rand_1 rand_2 CR_i^G", real=True)
+PRINTED_ADAPTATION = sp.Piecewise((RAND_2, sp.Le(RAND_1, TAU)), (CR, True))
+
+
+def rule_of(adaptation: sp.Piecewise) -> sp.Expr:
+    """What an adaptation of CR does to P(CR ≤ c), with rand_1 and rand_2 uniform on [0, 1].
+
+    Args:
+        adaptation: CR of the next generation: one value if rand_1 ≤ τ, or ≥ τ, else another.
+
+    Returns:
+        P(CR ≤ c) in the next generation, in `P` (the same in this one), `C` and `TAU`.
+
+    Source:
+        Nguyen 2021, eq. 15.
+    """
+    (value, condition), (other, _) = adaptation.args
+    chance = TAU if condition == sp.Le(RAND_1, TAU) else 1 - TAU
+    at_most_c = {RAND_2: C, CR: P}
+    return chance * at_most_c[value] + (1 - chance) * at_most_c[other]
+
+
+# Probability that CR ≤ c in the next generation, if it is P in this one.
+PRINTED_RULE = rule_of(PRINTED_ADAPTATION)
 
 
 def check_rule(rule: sp.Expr) -> Evidence:
@@ -75,17 +98,10 @@ CLAIMS = (
         Verdict.DEFINITION,
         "Redraws each CR with probability τ, so CR is uniform on [0, 1] in the long run and, with τ = 0.10, "
         "lives 10 generations on average: redrawn three or four times per point in the 27 to 41 generations "
-        "of "
-        'Table 6. "Same as (6)" points nowhere (eq. 6 is the matrix C).',
+        'of Table 6. "Same as (6)" points nowhere (eq. 6 is the matrix C).',
         Check(
             functools.partial(check_rule, PRINTED_RULE),
-            (
-                Formula(
-                    "CR_i^{G+1}",
-                    r"\begin{cases} rand_2 & rand_1 \le \tau \\ CR_i^G & \text{otherwise} \end{cases}",
-                ),
-                Formula(r"\tau", "0.10"),
-            ),
+            (Formula("CR_i^{G+1}", PRINTED_ADAPTATION), Formula(r"\tau", PRINTED_TAU_TEXT)),
         ),
         derivation="For the distribution of CR the rule reads P' = τ c + (1 - τ) P with P = P(CR ≤ c). The "
         "first values of CR are not printed; their influence fades as (1 - τ)^G. τ = 0.1 is also the value "

@@ -7,7 +7,7 @@ import sympy as sp
 from sympy import cos, pi, sin
 
 from armik_sym.symbolic.elbow_direction import device_elbow_direction, human_elbow_direction
-from derivations.claim import Claim, Verdict
+from derivations.claim import Claim, Fault, Verdict
 from derivations.from_casadi import to_sympy
 from derivations.identity import Identity
 from derivations.nguyen2021.chain import Q
@@ -126,7 +126,10 @@ CLAIMS = (
         Identity(printed_B(), device_B(), corrected_B(), symbol="B"),
         derivation="Rotation of the third frame of Table 4, rows read as standard ones.",
         correction="B12 = -cos(q1)·sin(q2 - π/2), that is cos(q1)·cos(q2)",
-        extraction="the line for B22 runs on into the expression of B23; its first half is B22",
+        extraction="the line for B22 runs on into the expression of B23; its first half is B22. "
+        'The matrix is called A_3 in (4) and B3 in the condition "B3 = C3" below (7); its entries are B11 to '
+        "B33, so both names are taken for this B",
+        fault=Fault.MISPRINT,
     ),
     Claim(
         PAPER,

@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import sympy as sp
 
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.nguyen2021.isade import GENERATIONS, generations_needed
 from derivations.nguyen2021.scaling_factor import (
     ALPHA,
@@ -25,13 +25,21 @@ from derivations.nguyen2021.scaling_factor import (
     sign_of,
     sign_over_generations,
 )
+from derivations.random_points import evaluate
 
 PAPER = "nguyen2021"
 _E, _G = sp.symbols("E G", positive=True)
+_TO_MAX, _TO_MIN = sp.symbols("u v", nonnegative=True)
+_POINTS = 1_000
 _RUNS = 30
 
-PRINTED_FACTOR = (F_RANK - F_MEAN) / 2
-CORRECTED_FACTOR = (F_RANK + F_MEAN) / 2
+# Not evaluated, so that they are shown as one fraction.
+PRINTED_FACTOR = sp.Mul(sp.Rational(1, 2), F_RANK - F_MEAN, evaluate=False)
+CORRECTED_FACTOR = sp.Mul(sp.Rational(1, 2), F_RANK + F_MEAN, evaluate=False)
+
+# What F stays between, if F_i is between 0 and 1 and F^mean between F_min and F_max.
+PRINTED_RANGE = (-F_MAX / 2, (1 - F_MIN) / 2)
+CORRECTED_RANGE = (F_MIN / 2, (1 + F_MAX) / 2)
 
 
 def check_factor(printed: sp.Expr, corrected: sp.Expr) -> Evidence:
@@ -51,12 +59,19 @@ def check_factor(printed: sp.Expr, corrected: sp.Expr) -> Evidence:
         return Evidence(Verdict.HOLDS, "∂F/∂iter < 0 and F > 0, exactly")
     rises = sign_over_generations(printed) == 1 and falls_in_numbers(-_as_generations(printed))
     counterexample = _example(printed)
-    if not rises or not _is_zero_where_said(printed) or not _falls_and_stays_positive(corrected):
+    mended = _falls_and_stays_positive(corrected) and stays_between(corrected, CORRECTED_RANGE)
+    if (
+        not rises
+        or not _is_zero_where_said(printed)
+        or not stays_between(printed, PRINTED_RANGE)
+        or not mended
+    ):
         return Evidence(Verdict.FALSE, "F does not fall, and the correction does not mend it", counterexample)
     return Evidence(
         Verdict.CORRECTED,
-        "as printed ∂F/∂iter > 0 for every rank, |F| < 1/2, and F = 0 at the rank given below; corrected "
-        "∂F/∂iter < 0 and F > 0, exactly; rising and falling at 1,000 random points in CasADi; "
+        "as printed ∂F/∂iter > 0 for every rank, -F_max/2 < F < (1 - F_min)/2, and F = 0 at the rank given "
+        "below; corrected ∂F/∂iter < 0, F > 0 and F_min/2 < F < (1 + F_max)/2, exactly; rising, falling and "
+        "within these ranges at 1,000 random points in CasADi; "
         f"{_experience()}",
         counterexample,
     )
@@ -100,12 +115,34 @@ def _falls_and_stays_positive(factor: sp.Expr) -> bool:
     )
 
 
+def stays_between(factor: sp.Expr, limits: tuple[sp.Expr, sp.Expr]) -> bool:
+    """Whether F stays strictly between two limits, for 0 < F_i < 1 and F_min ≤ F^mean ≤ F_max.
+
+    Args:
+        factor: F in `F_RANK` and `F_MEAN`.
+        limits: Lower and upper limit in `F_MIN` and `F_MAX`.
+
+    Returns:
+        True if proved, and so at 1,000 random points in CasADi.
+
+    Source:
+        Nguyen 2021, eq. 12-14.
+    """
+    ways = (factor - limits[0], limits[1] - factor)
+    somewhere = {F_RANK: 1 / (1 + _E), F_MAX: F_MEAN + _TO_MAX, F_MIN: F_MEAN - _TO_MIN}
+    if any(sign_of(way.subs(somewhere, simultaneous=True)) != 1 for way in ways):
+        return False
+    rank, low, high, part = np.random.default_rng(0).uniform((0, 0, 0.5, 0), (1, 0.5, 1, 1), (_POINTS, 4)).T
+    points = np.column_stack([rank, low + part * (high - low), low, high])
+    symbols = [F_RANK, F_MEAN, F_MIN, F_MAX]
+    return all(bool((evaluate(way, symbols, points) > 0).all()) for way in ways)
+
+
 def _is_zero_where_said(factor: sp.Expr) -> bool:
-    """F = 0 at the rank NP (1/2 + ln(1/F^mean - 1)/α), and |F| < 1/2 everywhere."""
+    """F = 0 at the rank NP (1/2 + ln(1/F^mean - 1)/α)."""
     rank = NP * (sp.Rational(1, 2) + sp.log(1 / F_MEAN - 1) / ALPHA)
     there = sp.simplify(factor.subs(F_RANK, PRINTED_BY_RANK.subs(RANK, rank)))
-    anywhere = factor.subs({F_RANK: 1 / (1 + _E), F_MEAN: 1 / (1 + _G)})
-    return there == 0 and all(sign_of(sp.Rational(1, 2) + sign * anywhere) == 1 for sign in (-1, 1))
+    return bool(there == 0)
 
 
 def _as_generations(factor: sp.Expr) -> sp.Expr:
@@ -136,21 +173,23 @@ CLAIMS = (
         "14",
         "final scale factor",
         Verdict.CORRECTED,
-        "Printed as half the difference, which rises with the generations, the opposite of what the text "
-        "asks for, and is negative, then zero (the mutant is the bare base vector), then positive for every "
-        "rank with F_min < F_i < F_max. Half the sum, the average, falls and stays between 0 and 1. "
-        "Programmed as printed, a test search was quicker with a large population and often stuck with a "
-        "small one.",
+        "Decided by the text's own aim, F high in the beginning and small later; the paper it cites for "
+        "ISADE was not at hand. Printed is half the difference: it rises with the generations, is negative "
+        "and then positive for every rank with F_min < F_i < F_max (zero in between: the mutant is the bare "
+        "base vector) and has the range -F_max/2 < F < (1 - F_min)/2. Half the sum, the average, falls as "
+        "asked, with F_min/2 < F < (1 + F_max)/2. Programmed as printed, a test search was quicker with a "
+        "large population and often stuck with a small one.",
         Check(
             functools.partial(check_factor, PRINTED_FACTOR, CORRECTED_FACTOR),
             (Formula("F_{iter}^i", PRINTED_FACTOR),),
             (Formula("F_{iter}^i", CORRECTED_FACTOR),),
         ),
         derivation="F_i does not depend on the generation and F^mean falls (eq. 13), so the sign before "
-        "F^mean is the sign of ∂F/∂iter. With the minus |F| < 1/2, and F = 0 where F_i = F^mean, at the rank "
-        "NP (1/2 + ln(1/F^mean - 1)/α); with the plus F_min/2 < F < (1 + F_max)/2. In eq. (9) and (10) only "
-        "|F| matters; in eq. (11) a negative F leads away from the best. Decided from the text of this "
-        "paper: the source it cites for ISADE (Bui et al. 2013) was not at hand to compare.",
+        "F^mean is the sign of ∂F/∂iter. With the minus F = 0 where F_i = F^mean, at the rank "
+        "NP (1/2 + ln(1/F^mean - 1)/α). The ranges follow from 0 < F_i < 1 and F_min ≤ F^mean ≤ F_max. In "
+        "eq. (9) and (10) only |F| matters; in eq. (11) a negative F leads away from the best. The source "
+        "that was not at hand is Bui et al. 2013; it may decide otherwise.",
         correction="plus instead of minus: the average of F_i and F^mean",
+        fault=Fault.MISPRINT,
     ),
 )

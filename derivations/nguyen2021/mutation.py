@@ -12,7 +12,10 @@ from derivations.random_points import first_difference, largest_difference
 
 PAPER = "nguyen2021"
 F = sp.Symbol("F", real=True)
-BEST, X1, X2, X3, X4 = sp.symbols("X_best X_r1 X_r2 X_r3 X_r4", real=True)
+# Named in LaTeX as printed, so that what is shown is what is checked.
+BEST, X1, X2, X3, X4 = (
+    sp.Symbol(f"X_{{{name},j}}^G", real=True) for name in ("best", "r1", "r2", "r3", "r4")
+)
 _SHIFT = sp.Symbol("c", real=True)
 _ROUNDING = 1e-9
 
@@ -128,8 +131,8 @@ def _agree(left: sp.Expr, right: sp.Expr) -> bool:
     return largest_difference(sp.Matrix([left]), sp.Matrix([right])) < _ROUNDING
 
 
-def _body(printed: sp.Expr, strategy: Strategy, right: str) -> Check:
-    return Check(functools.partial(check_mutant, printed, strategy), (Formula("V_{i,j}^G", right),))
+def _body(printed: sp.Expr, strategy: Strategy) -> Check:
+    return Check(functools.partial(check_mutant, printed, strategy), (Formula("V_{i,j}^G", printed),))
 
 
 CLAIMS = (
@@ -140,7 +143,7 @@ CLAIMS = (
         Verdict.DEFINITION,
         "The usual DE/best/1. Not printed: r1 ≠ r2 (else the mutant is the best individual itself) and, by "
         "convention, both different from i. Only |F| matters here, not the sign of F.",
-        _body(PRINTED_BEST_1, BEST_1, r"X_{best,j}^G + F\,(X_{r1,j}^G - X_{r2,j}^G)"),
+        _body(PRINTED_BEST_1, BEST_1),
         derivation="Built from its name: start at the best individual, add F times one random difference. "
         "The coefficients of the individuals sum to 1, so shifting the whole population shifts the mutant.",
     ),
@@ -151,11 +154,7 @@ CLAIMS = (
         Verdict.DEFINITION,
         "The usual DE/best/2. Not printed: r1 … r4 distinct (with r1 = r4 and r2 = r3 the differences "
         "cancel). Only |F| matters here, not the sign of F.",
-        _body(
-            PRINTED_BEST_2,
-            BEST_2,
-            r"X_{best,j}^G + F\,(X_{r1,j}^G - X_{r2,j}^G) + F\,(X_{r3,j}^G - X_{r4,j}^G)",
-        ),
+        _body(PRINTED_BEST_2, BEST_2),
         derivation="As eq. (9), with two random differences.",
     ),
     Claim(
@@ -166,11 +165,7 @@ CLAIMS = (
         "Starts from a random individual, as SciPy's `randtobest1bin` does; Storn and Price's first scheme "
         "of this kind starts from X_i itself, today called current-to-best. The sign of F matters: with "
         "F < 0, which eq. (14) as printed produces, the mutant moves away from the best individual.",
-        _body(
-            PRINTED_RAND_TO_BEST_1,
-            RAND_TO_BEST_1,
-            r"X_{r1,j}^G + F\,(X_{best,j}^G - X_{r1,j}^G) + F\,(X_{r2,j}^G - X_{r3,j}^G)",
-        ),
+        _body(PRINTED_RAND_TO_BEST_1, RAND_TO_BEST_1),
         derivation="As eq. (9), with one random difference and one step from the base towards the best. How "
         "the three strategies are chosen between is not printed.",
     ),

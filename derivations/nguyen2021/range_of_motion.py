@@ -11,7 +11,7 @@ import sympy as sp
 from armik_sym.arm import Arm
 from armik_sym.arm.catalog import ehmcs, human
 from armik_sym.symbolic import express
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.from_casadi import to_sympy
 from derivations.nguyen2021.anatomy import LEFT, MOVEMENT_OF_JOINT, RIGHT, senses
 from derivations.random_points import evaluate
@@ -96,7 +96,7 @@ def check_lengths(human_lengths: tuple[str, ...], model_lengths: tuple[str, ...]
         Verdict.CORRECTED if adds_up[0] else Verdict.FALSE,
         f"human: {float(sums[0]):g} m, as printed; model: {float(sums[1]):g} m, which is also the reach of "
         "the stretched arm in the catalogue's chain, exactly and in CasADi",
-        f"0.28 + 0.26 + 0.19 = {float(sums[1]):g}, printed {float(columns[1][3]):g}",
+        f"{' + '.join(model_lengths[:3])} = {float(sums[1]):g}, printed {model_lengths[3]}",
     )
 
 
@@ -168,15 +168,14 @@ def check_limits(table: Limits, arms: tuple[Callable[[], Arm], ...] = (ehmcs, hu
     left, right = ([turned_rows(build(), table, side) for build in arms] for side in (LEFT, RIGHT))
     if not any(left):
         return Evidence(Verdict.HOLDS, "every joint counts as the table does")
+    if not any(right):
+        return Evidence(Verdict.HOLDS, "every joint of a right arm counts as the table does")
     return Evidence(
-        Verdict.CORRECTED,
+        Verdict.DEFINITION,
         "direction of every joint from the derivative of the chain, exactly and in CasADi, for E-HMCS and "
         f"human arm alike: rows turned on a left arm: {_words(left)}; on a right arm: {_words(right)}. No "
         "side of the body makes all rows agree; with the rows of the left arm turned, the limits are the "
         f"catalogue's. Beyond the column Human: {_beyond(table)}",
-        "arm hanging, thumb forward: when q7 increases from 0 the fingers turn backward, away from the "
-        "thumb, which is ulnar; so q7 = 40° is 40° ulnar deviation, which Table 2 allows, and q7 = -40° is "
-        "radial deviation of 40°, twice what it allows",
     )
 
 
@@ -196,6 +195,21 @@ def _beyond(table: Limits) -> str:
     return ", ".join(found) or "nothing"
 
 
+def _total(metres: sp.Rational | str) -> Formula:
+    segments = " + ".join(MODEL_LENGTHS[:3])
+    return Formula(rf"\text{{model, in m: }} {segments}", f"{float(metres):g}")
+
+
+def _row(name: str, human_deg: Limits, model_deg: Limits) -> Formula:
+    """One row of Table 2, as printed."""
+    first, second = _OPPOSITES[name]
+    joint, opposite = first.split("_")[0], second.split("_")
+    words = " / ".join((first, "_".join(opposite[1:] if opposite[0] == joint else opposite)))
+    columns = [rf"{table[name][0]}/{table[name][1]}" for table in (human_deg, model_deg)]
+    right = rf"{columns[0]}^\circ \text{{ (human)}},\quad {columns[1]}^\circ \text{{ (model)}}"
+    return Formula(rf"\text{{{words.replace('_', ' ')}}}", right, ":")
+
+
 CLAIMS = (
     Claim(
         PAPER,
@@ -207,32 +221,33 @@ CLAIMS = (
         "with Table 4, whose forearm is 336 mm against 260 mm here.",
         Check(
             functools.partial(check_lengths, HUMAN_LENGTHS, MODEL_LENGTHS),
-            (Formula(r"\text{arm (total length), model}", r"0.74\,\mathrm{m}"),),
-            (Formula(r"\text{arm (total length), model}", r"0.73\,\mathrm{m}"),),
+            (_total(MODEL_LENGTHS[3]),),
+            (_total(sum(map(sp.Rational, MODEL_LENGTHS[:3]))),),
         ),
         derivation="Sum of the column, and length of the hanging arm in the chain.",
         correction="total length of the model: 0.73 m",
+        fault=Fault.MISPRINT,
     ),
     Claim(
         PAPER,
         "Table 2",
-        "range of motion",
-        Verdict.CORRECTED,
-        "Column Model, counted as the joint variables of Table 4 count, with one row turned: q7 increases "
-        "towards the little finger, so radial 20 / ulnar -40 is -20° to +40°. The model's ±180° of shoulder "
-        "flexion (human: 165/-50) and its -73° of wrist extension (human: -70) go beyond the human column: "
-        "narrow them for a patient.",
+        "range of motion, and which way the joint variables count",
+        Verdict.DEFINITION,
+        "The table prints movements, not intervals of q1 to q7, and no sign convention; the chain of Table 4 "
+        "fixes it. On a left arm the joint variables count as the table counts but for the last row: q7 "
+        "increases towards the little finger (ulnar), so radial 20 / ulnar -40 is -20° ≤ q7 ≤ 40°. No side "
+        "of the body makes all rows agree. The model's ±180° of shoulder flexion (human: 165/-50) and its "
+        "-73° of wrist extension (human: -70) go beyond the human column: narrow them for a patient.",
         Check(
             functools.partial(check_limits, MODEL_DEG),
-            (Formula("q_7", r"[-40^\circ,\ 20^\circ]", r"\in"),),
-            (Formula("q_7", r"[-20^\circ,\ 40^\circ]", r"\in"),),
+            tuple(_row(name, HUMAN_DEG, MODEL_DEG) for name in MODEL_DEG),
         ),
-        derivation="Table 2 does not say which way the joints count; the chain does, given that the arm "
-        "hangs at q = 0 with the thumb forward and that x is up and z forward (the elbow bends towards z). "
-        "Then q1 to q5 increase in the movement named first, if the arm is a left one; q6 increases in "
-        "extension, which ±73° does not show. That the thumb points forward at q = 0 is assumed, not "
-        "printed. The table lists pronation under the elbow, the text under the wrist; it is the same joint, "
-        "q5.",
-        correction="limits of q7: -20° to +40°",
+        derivation="The arm hangs at q = 0 with the thumb forward; x is up and z forward (the elbow bends "
+        "towards z). Then q1 to q5 increase in the movement named first, if the arm is a left one; q6 "
+        "increases in extension, which ±73° does not show. When q7 increases from 0 the fingers turn "
+        "backward, away from the thumb, which is ulnar: q7 = 40° is 40° of ulnar deviation, which the table "
+        "allows, and q7 = -40° would be 40° of radial deviation, twice what it allows. That the thumb points "
+        "forward at q = 0 is assumed, not printed. The table lists pronation under the elbow, the text under "
+        "the wrist; it is the same joint, q5.",
     ),
 )

@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import sympy as sp
 
-from derivations.claim import Check, Claim, Evidence, Formula, Verdict
+from derivations.claim import Check, Claim, Evidence, Fault, Formula, Verdict
 from derivations.random_points import evaluate
 
 PAPER = "nguyen2021"
@@ -20,6 +20,10 @@ _POINTS = 1_000
 
 PRINTED_BY_RANK = 1 / (1 + sp.exp(ALPHA * (RANK - NP / 2) / NP))
 PRINTED_MEAN = F_MIN + (F_MAX - F_MIN) * ((ITER_MAX - ITER) / ITER_MAX) ** N_ITER
+
+# The text below eq. (13): lower and upper bound of F, in this order.
+PRINTED_BOUNDS = (F_MAX, F_MIN)
+CORRECTED_BOUNDS = (F_MIN, F_MAX)
 
 # For examples only: the paper prints iter_max (Table 5), but neither NP, α, n_iter nor the bounds of F.
 EXAMPLE = {
@@ -116,23 +120,28 @@ def _on_ranks(by_rank: sp.Expr, shift: int) -> np.ndarray:
     return evaluate(by_rank.subs(RANK, RANK + shift), [RANK, NP, ALPHA], points)
 
 
-def check_mean(mean: sp.Expr) -> Evidence:
+def check_mean(mean: sp.Expr, bounds: tuple[sp.Symbol, sp.Symbol] = PRINTED_BOUNDS) -> Evidence:
     """Does F^mean fall from F_max to F_min, and what if the words upper and lower are crossed?
 
     Args:
-        mean: F^mean of one generation, with F_max the larger number.
+        mean: F^mean of one generation.
+        bounds: What the words call the lower and the upper bound of F.
 
     Returns:
-        `Verdict.CORRECTED` if it falls as the names say and rises as the words below eq. (13) say.
+        `Verdict.CORRECTED` if it falls as the names say and rises as the words say, `Verdict.HOLDS` if it
+        falls either way.
 
     Source:
         Nguyen 2021, eq. 13 and the text around it.
     """
-    as_worded = mean.subs({F_MAX: F_MIN, F_MIN: F_MAX}, simultaneous=True)
+    as_worded = mean.subs(dict(zip(bounds, CORRECTED_BOUNDS, strict=True)), simultaneous=True)
     ends = [sp.simplify(mean.subs(ITER, t)) for t in (0, ITER_MAX)]
     falls = sign_over_generations(F_MEAN, mean) == -1 and falls_in_numbers(mean)
-    if not falls or sign_over_generations(F_MEAN, as_worded) != 1 or ends != [F_MAX, F_MIN]:
+    rises_as_worded = sign_over_generations(F_MEAN, as_worded) == 1
+    if not falls or ends != [F_MAX, F_MIN]:
         return Evidence(Verdict.FALSE, "F does not fall", f"it goes from {ends[0]} to {ends[1]}")
+    if not rises_as_worded:
+        return Evidence(Verdict.HOLDS, "F falls from its upper to its lower bound, as the words say")
     low, high = (as_worded.subs(EXAMPLE).subs(ITER, t) for t in (0, EXAMPLE[ITER_MAX]))
     return Evidence(
         Verdict.CORRECTED,
@@ -163,6 +172,12 @@ def falls_in_numbers(mean: sp.Expr) -> bool:
     return bool((later < now).all())
 
 
+def _bounds(bounds: tuple[sp.Symbol, sp.Symbol]) -> tuple[Formula, Formula]:
+    names = (r"\text{lower boundary condition of } F", r"\text{upper boundary condition of } F")
+    lower, upper = (Formula(name, bound) for name, bound in zip(names, bounds, strict=True))
+    return lower, upper
+
+
 CLAIMS = (
     Claim(
         PAPER,
@@ -184,13 +199,14 @@ CLAIMS = (
         "F_max the lower and F_min the upper bound, and with such numbers F would rise. The bounds and "
         "n_iter are not printed, and iter_max is 150 in Table 5 but 600 in the text.",
         Check(
-            functools.partial(check_mean, PRINTED_MEAN),
-            (Formula("F_{iter}^{mean}", PRINTED_MEAN), Formula("F_{max}", "F_{min}", r"\le")),
-            (Formula("F_{max}", "F_{min}", r"\ge"),),
+            functools.partial(check_mean, PRINTED_MEAN, PRINTED_BOUNDS),
+            (Formula(sp.latex(F_MEAN), PRINTED_MEAN), *_bounds(PRINTED_BOUNDS)),
+            _bounds(CORRECTED_BOUNDS),
         ),
         derivation="∂F/∂iter = -n_iter (F_max - F_min) u^(n_iter - 1) / iter_max with "
         "u = (iter_max - iter)/iter_max: negative exactly if F_max > F_min, which is what the text before "
         "the equation asks for (F high in the beginning, small later).",
         correction="F_max is the upper and F_min the lower bound",
+        fault=Fault.WORDING,
     ),
 )

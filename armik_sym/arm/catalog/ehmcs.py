@@ -40,7 +40,8 @@ def ehmcs(dof: int = 7) -> Arm:
       sign errors and one wrong factor in its third row, so that it is no rigid transform. Read as
       modified rows, Table 4 misses eq. (3) by up to 0.96 m. Read as **standard** rows it gives eq. (3)
       exactly: standard is used.
-    - *Row 2, d.* Table 4 prints 7 mm; eq. (3) holds with 0 only (7 mm misses it by 7 mm). **0** is used.
+    - *Row 2, d.* Table 4 prints 7 mm; eq. (3) holds with 0 only (7 mm misses it by 7 mm). Which of the two
+      is wrong cannot be told; eq. (3) is followed: **0** is used.
     - *Range of motion.* Table 3 says "equivalent to the human arm": Table 2, column "Model". Table 2
       does not say which joint turns which way; the geometry does. At q = 0 the upper arm points along
       -x, and the elbow bends it towards +z: x is up, z forward, y therefore to the right. With these
