@@ -14,6 +14,7 @@ from armik_sym.arm.model import Arm
 from armik_sym.compiled.backend import Backend
 from armik_sym.errors import OptionError, UnknownNameError
 from armik_sym.motion.hand_path import HandPath
+from armik_sym.pointwise.methods import METHODS
 from armik_sym.progress import ProgressCallback
 from armik_sym.solution import Solution
 from armik_sym.trajectory import TrajectoryOptions, solve_trajectory
@@ -21,6 +22,7 @@ from armik_sym.trajectory import TrajectoryOptions, solve_trajectory
 # Every method: its options, and the function that solves with them.
 _METHODS: dict[str, tuple[type[Any], Callable[..., Solution]]] = {
     "trajectory": (TrajectoryOptions, solve_trajectory),
+    **METHODS,
 }
 
 
@@ -47,26 +49,29 @@ def solve(
     Args:
         arm: The arm.
         path: The hand path, n samples.
-        method: "trajectory" (all samples at once, IPOPT).
+        method: "trajectory" (all samples at once, IPOPT), or one pose after another: "pro-isade", "isade"
+            (Nguyen 2021), "lm", "sugihara", "alfaiz" (Al-Faiz).
         start: Known posture at the beginning, shape (dof,), in [rad]; if it does not put the hand on the
             path, the solution begins near it and says how far away.
         seed: Seed of everything random.
         backend: "auto" (compiled C if possible), "c" or "vm".
         progress: Told what is going on, see `Progress`.
-        **options: Options of the method; for "trajectory" see `trajectory.TrajectoryOptions`.
+        **options: Options of the method: `trajectory.TrajectoryOptions`, and in `pointwise` `ProIsadeOptions`,
+            `IsadeOptions`, `LmOptions`, `SugiharaOptions`, `AlfaizOptions`.
 
     Returns:
         The solution; `solution.ok` and `solution.reasons` say what it is worth.
 
     Raises:
         UnknownNameError: If the method or an option does not exist; lists those that do.
-        UnreachablePathError: If samples cannot be reached; names them and the distance.
+        UnreachablePathError: If samples cannot be reached; names them and the distance. Methods that take one
+            pose after another go on instead, and the solution says which samples they missed.
         SolverError: If the solver found no answer that can be trusted.
         LimitError: If `start` lies outside the range of motion or limits contradict the path.
         OptionError: If an option has a value the method cannot work with, or arm or path is none.
 
     Source:
-        Nguyen 2021, §3.3 (the task); this package (the trajectory method).
+        Nguyen 2021, §3.3 (the task, Pro-ISADE); Al-Faiz (lm, sugihara, alfaiz); this package (trajectory).
     """
     _check_types(arm, path, seed)
     if method not in _METHODS:

@@ -23,10 +23,11 @@ from pathlib import Path
 import casadi as ca
 import numpy as np
 
+from armik_sym import emit_c
 from armik_sym.arm import Arm, DHConvention
 from armik_sym.arm.catalog import alfaiz, ehmcs, human
 from armik_sym.arm.product_of_transforms import hand_pose
-from armik_sym.compiled import Kinematics, compile, emit_c
+from armik_sym.compiled import Kinematics, compile
 from armik_sym.compiled.compiler import Compiler, find_compiler
 
 LARGE = 100_000

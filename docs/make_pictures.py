@@ -12,29 +12,32 @@ IMAGES = Path(__file__).resolve().parent / "images"
 # Folder: (x, y, what it is), in the order in which code flows from bottom to top.
 ROOMS = {
     "arm/": (0.5, 0.0, "DH chain, range of motion,\nlengths, catalogue, files"),
-    "symbolic/": (0.0, 1.0, "CasADi expressions:\npose, Jacobians, residuals"),
-    "compiled/": (0.0, 2.0, "C from expressions:\nemit, compile, cache, load"),
+    "symbolic/": (0.0, 1.0, "CasADi expressions: pose,\nJacobians, closed forms"),
     "motion/": (1.0, 1.0, "hand paths and joint angles:\ncsv, bundled tasks"),
+    "elbow/": (-0.55, 2.0, "device angles to\nhuman angles"),
+    "compiled/": (0.0, 2.0, "C from expressions:\nemit, compile, cache, load"),
     "solution/": (1.0, 2.0, "angles that judge themselves:\nerrors, margins, verdict, files"),
-    "trajectory/": (0.5, 3.0, "the whole path in one call:\nfirst guess, IPOPT problem"),
-    "solving.py": (0.0, 4.0, "solve(arm, path, method)"),
+    "pointwise/": (0.0, 3.0, "one pose after another:\nPro-ISADE, LM, Al-Faiz"),
+    "trajectory/": (0.55, 3.0, "the whole path in one call:\nfirst guess, IPOPT problem"),
+    "solving.py": (0.25, 4.0, "solve(arm, path, method)"),
     "report/": (1.0, 4.0, "figures"),
-    "cli/": (0.5, 5.0, "the command armik"),
+    "cli/": (0.6, 5.0, "the command armik"),
 }
 ARROWS = [
-    ("arm/", "symbolic/"), ("symbolic/", "compiled/"), ("arm/", "motion/"), ("motion/", "solution/"),
-    ("compiled/", "trajectory/"), ("solution/", "trajectory/"), ("trajectory/", "solving.py"),
-    ("solution/", "report/"), ("solving.py", "cli/"), ("report/", "cli/"),
+    ("arm/", "symbolic/"), ("symbolic/", "compiled/"), ("symbolic/", "elbow/"), ("arm/", "motion/"),
+    ("motion/", "solution/"), ("compiled/", "trajectory/"), ("compiled/", "pointwise/"),
+    ("solution/", "trajectory/"), ("solution/", "pointwise/"), ("trajectory/", "solving.py"),
+    ("pointwise/", "solving.py"), ("solution/", "report/"), ("solving.py", "cli/"), ("report/", "cli/"),
 ]  # fmt: skip
 WIDTH, HEIGHT = 0.44, 0.62
 
 
 def architecture() -> Figure:
     """The folders and who uses whom."""
-    figure = Figure(figsize=(8.5, 7.2), layout="constrained")
+    figure = Figure(figsize=(10, 7.2), layout="constrained")
     axes = figure.add_subplot()
     axes.set_axis_off()
-    axes.set(xlim=(-0.28, 1.28), ylim=(-0.45, 5.5))
+    axes.set(xlim=(-0.82, 1.28), ylim=(-0.45, 5.5))
     for name, (x, y, text) in ROOMS.items():
         box = FancyBboxPatch(
             (x - WIDTH / 2, y - HEIGHT / 2), WIDTH, HEIGHT,

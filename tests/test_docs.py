@@ -19,7 +19,7 @@ import armik_sym as ak
 REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = REPOSITORY / "armik_sym"
 SOURCES = sorted(PACKAGE.rglob("*.py"))
-EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-46]_*.py"))
+EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-467]_*.py"))
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -115,7 +115,18 @@ def test_library_neither_prints_nor_asserts() -> None:
                 assert node.func.id != "print", f"{file}: print"
 
 
-LAYERS = ["arm", "symbolic", "elbow", "compiled", "motion", "solution", "trajectory", "report", "cli"]
+LAYERS = [
+    "arm",
+    "symbolic",
+    "elbow",
+    "compiled",
+    "motion",
+    "solution",
+    "pointwise",
+    "trajectory",
+    "report",
+    "cli",
+]
 MAY_USE = {
     "arm": set(),
     "symbolic": {"arm"},
@@ -123,9 +134,10 @@ MAY_USE = {
     "compiled": {"arm", "symbolic"},
     "motion": {"arm"},
     "solution": {"arm", "symbolic", "motion"},
+    "pointwise": {"arm", "symbolic", "compiled", "motion", "solution"},
     "trajectory": {"arm", "symbolic", "compiled", "motion", "solution"},
     "report": {"arm", "symbolic", "motion", "solution"},
-    "cli": {"arm", "symbolic", "compiled", "motion", "solution", "trajectory", "report"},
+    "cli": {"arm", "symbolic", "compiled", "motion", "solution", "pointwise", "trajectory", "report"},
 }
 
 

@@ -18,7 +18,10 @@ def solve(
     file: Annotated[Path, typer.Argument(help="Hand path: a CSV file with units in its header.")],
     arm: Annotated[str, typer.Option(help="Arm: a name (ehmcs, human, alfaiz) or a TOML file.")] = "ehmcs",
     method: Annotated[
-        str, typer.Option(help="Method: trajectory solves all samples at once.")
+        str,
+        typer.Option(
+            help="trajectory solves all samples at once; pro-isade, isade, lm, sugihara and alfaiz one by one."
+        ),
     ] = "trajectory",
     orientation: Annotated[
         str | None, typer.Option(help="full, pointing or none; default: full if the path has rotations.")

@@ -19,9 +19,15 @@ from armik_sym.compiled.lanes import fits_lanes, lanes_function, lanes_header
 from armik_sym.compiled.library_source import PRELUDE
 from armik_sym.compiled.structure import ArmStructure
 from armik_sym.symbolic import ArmExpressions, express
+from armik_sym.symbolic.alfaiz_closed_form import closed_form_fits, search_functions
 
 # The hand-written C, in the order in which one file needs the other.
-LOOPS = ("random_stream.h", "isade.h", "damped_pose.h", "alfaiz_search.h")
+LOOPS = (
+    "random_stream.h", "real_math.h",
+    "isade_settings.h", "isade_cost.h", "isade_generation.h", "isade.h",
+    "small_cholesky.h", "pose_residual.h", "bounded_step.h", "damped_pose.h", "damped_path.h",
+)  # fmt: skip
+ALFAIZ_LOOPS = ("lanes_atan2.h", "alfaiz_curve.h", "alfaiz_search.h")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +87,7 @@ def pointwise_source(functions: Mapping[str, ca.Function], dof: int, loops: tupl
     n_lengths = next(iter(functions.values())).numel_in(1)
     parts = [PRELUDE, lanes_header(), f"#define DOF {dof}\n#define N_LENGTHS {n_lengths}\n"]
     for name, function in functions.items():
-        parts.append("static " + c_function(function, f"armik_{name}"))
+        parts.append("static inline " + c_function(function, f"armik_{name}"))
         if fits_lanes(function):
             parts.append(lanes_function(function, f"armik_{name}"))
             parts.append(f"#define HAS_LANES_OF_{name}\n")
@@ -135,6 +141,11 @@ def _function(symbols: ArmExpressions, name: str, value: ca.SX) -> ca.Function:
 @functools.lru_cache(maxsize=64)
 def _library(structure: ArmStructure, backend: Backend) -> PointwiseLibrary:
     started = time.perf_counter()
-    source = pointwise_source(pointwise_functions(structure.arm), structure.arm.dof)
+    arm = structure.arm
+    loops: tuple[str, ...] = LOOPS
+    functions = pointwise_functions(arm)
+    if closed_form_fits(arm):
+        functions, loops = functions | search_functions(), loops + ALFAIZ_LOOPS
+    source = pointwise_source(functions, arm.dof, loops)
     build_time = time.perf_counter() - started
     return PointwiseLibrary(build_or_none(source, backend), build_time)
