@@ -242,7 +242,7 @@ def test_the_page_can_be_shown_by_github() -> None:
     for formula in re.findall(r"```math\n(.*?)\n```", text, re.DOTALL):
         assert formula.count("{") == formula.count("}")
         assert formula.count(r"\left") - formula.count(r"\leftarrow") == formula.count(r"\right")
-        assert formula.isascii(), formula
+        assert re.sub(r"\\text\{[^}]*\}", "", formula).isascii(), formula
         assert formula.count(r"\begin") == formula.count(r"\end")
     for row in (line for line in text.splitlines() if line.startswith("|")):
         assert len(re.findall(r"(?<!\\)\|", row)) in (4, 6), row

@@ -439,8 +439,8 @@ int main(void) {
   real targets[36], lengths[N_LENGTHS + 1];
   for (int j = 0; j < N_LENGTHS; ++j) lengths[j] = 0.3;
   for (int c = 0; c < 3; ++c) {
-    const struct isade_settings settings = {cases[c][0], 25, cases[c][1], cases[c][2], c % 2, 4, 0.2, 0.8, 1, -1,
-                                            0.1, 0.01, 1, 0.3, 1e-8, 0.5, 0.03};
+    const struct isade_settings settings = {cases[c][0], 25, cases[c][1], cases[c][2], c % 2, 4, 0.2, 0.8, 1,
+                                            -1, 0.1, 0.01, 1, 0.3, 1e-8, 0.5, 0.03};
     /* The exact workspace: one number more would be found. */
     real *reals = malloc((size_t)armik_isade_reals(settings.population) * sizeof *reals);
     uint64_t *words = malloc((size_t)armik_isade_words(settings.population) * sizeof *words);
