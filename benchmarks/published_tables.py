@@ -3,11 +3,11 @@
     python benchmarks/published_tables.py [--repetitions 20]
 
 Table 6: Pro-ISADE on the five tasks, position only, five joints, from the first measured posture.
-What agrees: every point is reached, in about as many generations. What does not: the mean error, as the search
-ends as soon as it is below 1e-5 mm (the paper's is four times smaller, so its populations were larger or it
-stopped later); the time per point, as this is compiled C and not MATLAB; the joint error, as the position
-alone leaves two of the five joints free to drift within the search window, while the paper's cost (16) also holds
-three direction cosines. The tasks are synthetic (the recordings were never published).
+What agrees: every point is reached, in about as many generations. What does not: the mean error, as the
+search ends as soon as it is below 1e-5 mm (the paper's is four times smaller, so its populations were larger
+or it stopped later); the time per point, as this is compiled C and not MATLAB; the joint error, as the
+position alone leaves two of the five joints free to drift within the search window, while the paper's cost
+(16) also holds three direction cosines. The tasks are synthetic (the recordings were never published).
 
 Table 2 of Al-Faiz: see `python benchmarks/alfaiz.py`.
 

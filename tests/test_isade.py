@@ -315,28 +315,31 @@ def test_c_and_numpy_agree_generation_by_generation(choice, orientation, family,
             assert c.evaluations == numpy.evaluations
 
 
+RUNS = 1_000
+
+
 def test_c_and_numpy_agree_in_distribution():
     q = gentle(ARM, 2, seed=8)
     q[0] = q[1]
     options = ProIsadeOptions(population=20, stop=3e-3)
-    start = q[1] - 0.01  # 200 different runs of one sample that is a few generations away
+    start = q[1] - 0.01  # a thousand different runs of one sample that is a few generations away
     counts = np.array(
         [
             [
                 out.iterations[0]
                 for out in run_many(
                     ARM,
-                    [PathJob(targets_of(ARM, q[:1]), start, seed) for seed in range(offset, offset + 200)],
+                    [PathJob(targets_of(ARM, q[:1]), start, seed) for seed in range(offset, offset + RUNS)],
                     options,
                     library=found,
                 )
             ]
-            for offset, found in ((0, library("compiled", NAME)), (1000, NUMPY))
+            for offset, found in ((0, library("compiled", NAME)), (RUNS, NUMPY))
         ]
     )
     spread = counts.std(axis=1).mean()
     assert spread > 0
-    assert abs(np.diff(counts.mean(axis=1))[0]) < 4 * spread * np.sqrt(2 / 200)
+    assert abs(np.diff(counts.mean(axis=1))[0]) < 4 * spread * np.sqrt(2 / RUNS)
 
 
 @given(population=st.integers(5, 60), key=st.integers(0, 2**64 - 1))
