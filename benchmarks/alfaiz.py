@@ -211,13 +211,11 @@ def table_2(compiled: PointwiseLibrary) -> None:
 
 
 def table_2_damped() -> None:
-    """The same targets with LM and Sugihara: residual as printed (eq. 51-53), corrected, and with restarts."""
+    """The same targets with LM and Sugihara: residual as printed (eq. 51-53), corrected, with restarts."""
     arm = alfaiz().with_rom([-np.pi] * 7, [np.pi] * 7)
     compiled = pointwise_library(arm)
     U, _, V = np.linalg.svd(_TABLE_2_ROTATION)
-    print(
-        "\nTable 2, the other columns: error from the middle of the range (paper | printed, corrected, restarts)"
-    )
+    print("\nTable 2, LM and Sugihara from mid-range: paper | residual printed, corrected, restarts")
     for x, paper in _PAPER_ERRORS.items():
         pose = np.concatenate([[x / 100, 0.13, 0.23], (U @ V).ravel()])
         goal, cells = HandTargets(Orientation.FULL, pose[None]), []
@@ -229,11 +227,12 @@ def table_2_damped() -> None:
             cells.append(f"{theirs:.4f} | " + ", ".join(f"{error:.1e}" for error in errors))
         print(f"{x}  LM {cells[0]}   Sugihara {cells[1]}")
     print(
-        "What agrees: nothing much. With the corrected residual both methods reach every target, so errors of\n"
-        "0.67 to 0.75 are no property of them; with the residual as printed (eq. 53) they end half a turn off.\n"
-        "The paper tells neither lengths, start, weights of position and rotation, nor the stop: its numbers\n"
-        "are probably those of an iteration that was cut short or pulled sideways by eq. 53. The proposed method\n"
-        "reaches the targets with the corrected equations only; 0.0003 to 0.0005 does not follow from the printed."
+        "What agrees: nothing much. With the corrected residual both methods reach every target, so errors\n"
+        "of 0.67 to 0.75 are no property of them; with the residual as printed (eq. 53) they end half a turn\n"
+        "off. The paper tells neither lengths, start, weights of position and rotation, nor the stop: its\n"
+        "numbers are probably those of an iteration that was cut short or pulled sideways by eq. 53. The\n"
+        "proposed method reaches the targets with the corrected equations only; 0.0003 to 0.0005 does not\n"
+        "follow from the printed ones."
     )
 
 
