@@ -24,7 +24,8 @@ if TYPE_CHECKING:
         load_arm,
         segment_lengths,
     )
-    from armik_sym.compiled import Kinematics, compile, emit_c
+    from armik_sym.compiled import Kinematics, compile
+    from armik_sym.emitting import emit_c
     from armik_sym.errors import ArmikError
     from armik_sym.motion import HandPath, load_task, read_path, task_names, write_path
     from armik_sym.progress import Progress
@@ -66,7 +67,8 @@ _HOMES = {
         "Arm", "DHChain", "DHConvention", "DHLink", "JointType", "RangeOfMotion", "catalog", "load_arm",
         "segment_lengths",
     ),
-    "armik_sym.compiled": ("Kinematics", "compile", "emit_c"),
+    "armik_sym.compiled": ("Kinematics", "compile"),
+    "armik_sym.emitting": ("emit_c",),
     "armik_sym.errors": ("ArmikError",),
     "armik_sym.motion": ("HandPath", "load_task", "read_path", "task_names", "write_path"),
     "armik_sym.progress": ("Progress",),

@@ -56,7 +56,7 @@ def solve(
         seed: Seed of everything random.
         backend: "auto" (compiled C if possible), "c" or "vm".
         progress: Told what is going on, see `Progress`.
-        **options: Options of the method: `trajectory.TrajectoryOptions`, and in `pointwise` `ProIsadeOptions`,
+        **options: Options of the method: `trajectory.TrajectoryOptions`; in `pointwise` `ProIsadeOptions`,
             `IsadeOptions`, `LmOptions`, `SugiharaOptions`, `AlfaizOptions`.
 
     Returns:

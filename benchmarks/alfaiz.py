@@ -229,7 +229,7 @@ def table_2_damped() -> None:
     print(
         "What agrees: nothing much. With the corrected residual both methods reach every target, so errors\n"
         "of 0.67 to 0.75 are no property of them; with the residual as printed (eq. 53) they end half\n"
-        "a turn off. The paper tells neither lengths, start, weights of position and rotation, nor the stop:\n"
+        "a turn off. The paper tells neither lengths, start, weights of position and rotation, nor stop:\n"
         "its numbers are probably those of an iteration cut short, or pulled sideways by eq. 53. The\n"
         "proposed method reaches the targets with the corrected equations only; 0.0003 to 0.0005 does not\n"
         "follow from the printed ones."

@@ -12,10 +12,10 @@ import pytest
 from compiled_helpers import CC, STRICT, caller, needs_cc
 from sample_arms import ARMS, BARE, postures
 
+from armik_sym import emit_c
 from armik_sym.arm import Arm
 from armik_sym.arm.catalog import ehmcs
 from armik_sym.compiled import compile as compile_arm
-from armik_sym.compiled import emit_c
 from armik_sym.compiled.emit_functions import limits_in
 from armik_sym.compiled.emit_text import comment_text
 from armik_sym.compiled.emit_vectors import jacobian_by_differences, sample_postures

@@ -17,6 +17,13 @@ def emit_c(
     lengths: Annotated[
         str, typer.Option(help="baked (constants in the code) or parameter (argument of every function).")
     ] = "baked",
+    solvers: Annotated[
+        bool,
+        typer.Option(
+            "--solvers",
+            help="Also inverse kinematics: damped step, Levenberg-Marquardt, Sugihara, Pro-ISADE.",
+        ),
+    ] = False,
 ) -> None:
     """Write an arm as a C library with its own test."""
     import armik_sym as ak
@@ -26,6 +33,7 @@ def emit_c(
         out,
         precision=cast("Literal['double', 'float']", precision),
         lengths=cast("Literal['baked', 'parameter']", lengths),
+        solvers=solvers,
     )
     files = sorted(path.name for path in folder.iterdir() if path.is_file())
     say(f"{folder}: {', '.join(files)}")

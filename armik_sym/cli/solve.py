@@ -20,7 +20,7 @@ def solve(
     method: Annotated[
         str,
         typer.Option(
-            help="trajectory solves all samples at once; pro-isade, isade, lm, sugihara and alfaiz one by one."
+            help="trajectory solves all samples at once; pro-isade, isade, lm, sugihara, alfaiz one by one."
         ),
     ] = "trajectory",
     orientation: Annotated[

@@ -1,6 +1,5 @@
 """C from expressions: generate, compile, cache, load, and export for a robot controller."""
 
-from armik_sym.compiled.emit import emit_c
 from armik_sym.compiled.kinematics import Kinematics, compile
 
-__all__ = ["Kinematics", "compile", "emit_c"]
+__all__ = ["Kinematics", "compile"]
