@@ -159,3 +159,43 @@ def test_on_the_command_line(tmp_path):
     done = CliRunner().invoke(app, [str(argument) for argument in arguments])
     assert done.exit_code == 0, done.output
     assert "method lm" in done.output
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def test_options_of_a_method_on_the_command_line(tmp_path):
+    _, path = smooth_path(ALFAIZ, 6)
+    file = tmp_path / "path.csv"
+    ak.write_path(file, path)
+    common = ("solve", file, "--arm", "alfaiz", "--out", tmp_path)
+    done = invoke(*common, "--method", "lm", "--set", "restarts=3", "--set", "residual=corrected")
+    assert done.exit_code in (0, 1), done.output
+    for arguments, message in (
+        (("--method", "pro-isade", "--tracking", "soft"), "--tracking belongs to --method trajectory"),
+        (("--method", "lm", "--max-acceleration", "9"), "--max-acceleration belongs to --method trajectory"),
+        (("--method", "lm", "--set", "restarts"), "expected NAME=VALUE"),
+        (("--method", "lm", "--set", "restarts=-1"), "restarts is -1"),
+        (("--method", "lm", "--set", "speed=1"), "unknown option of method 'lm' 'speed'"),
+    ):
+        done = invoke(*common, *arguments)
+        assert done.exit_code == 2
+        assert message in " ".join(done.output.split())
+
+
+def test_files_say_which_samples_were_reached(tmp_path):
+    arm = ak.catalog.ehmcs()
+    q, path = smooth_path(arm, 8)
+    position = np.array(path.position)
+    position[5] *= 3
+    solution = ak.solve(arm, ak.HandPath(path.time, position, path.rotation), "lm", start=q[0])
+    rows = solution.save(tmp_path / "lm.csv").read_text(encoding="utf-8").splitlines()[1:]
+    columns = rows[0].split(",")
+    reached = [float(row.split(",")[columns.index("reached [-]")]) for row in rows[1:]]
+    assert reached == solution.reached.tolist()
+    with np.load(solution.save(tmp_path / "lm.npz")) as file:
+        np.testing.assert_array_equal(file["reached"], solution.reached)
+        np.testing.assert_array_equal(file["iterations"], solution.sample_iterations)
+    texts = [text.get_text() for axes in solution.plot().axes for text in axes.texts]
+    assert "| not reached" in texts

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import math
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from armik_sym.errors import OptionError
 
@@ -69,6 +70,51 @@ def posture(text: str, arm: Arm) -> list[float]:
             raise OptionError(f"--start holds {cell!r}, {expected}")
         angles.append(value / joint_unit(arm, len(angles)).factor)
     return angles
+
+
+def settings(pairs: list[str]) -> dict[str, Any]:
+    """Further options of a method, typed as NAME=VALUE.
+
+    Args:
+        pairs: What was typed; a value that is no number, list, True, False or None is a word.
+
+    Returns:
+        Options by name.
+
+    Raises:
+        OptionError: If one is not NAME=VALUE.
+
+    Source:
+        None (command line).
+    """
+    chosen: dict[str, Any] = {}
+    for pair in pairs:
+        name, sign, value = pair.partition("=")
+        if not sign or not name.strip().isidentifier():
+            raise OptionError(f"--set {pair!r}: expected NAME=VALUE, for example --set window=0.05")
+        try:
+            chosen[name.strip()] = ast.literal_eval(value.strip())
+        except (ValueError, SyntaxError):
+            chosen[name.strip()] = value.strip()
+    return chosen
+
+
+def only_for_trajectory(method: str, typed: dict[str, object]) -> None:
+    """Refuse options that only the trajectory method has.
+
+    Args:
+        method: The method.
+        typed: Options by their name on the command line, None where they were not given.
+
+    Raises:
+        OptionError: If one is given with another method.
+
+    Source:
+        None (command line).
+    """
+    given = [name for name, value in typed.items() if value is not None]
+    if method != "trajectory" and given:
+        raise OptionError(f"{given[0]} belongs to --method trajectory, {method} has no such option")
 
 
 def rate(name: str, degrees: float | None) -> dict[str, float]:

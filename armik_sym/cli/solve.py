@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from armik_sym.cli.arguments import backend_name, posture, rate
+from armik_sym.cli.arguments import backend_name, only_for_trajectory, posture, rate, settings
 from armik_sym.cli.console import say
 from armik_sym.cli.failures import NOT_OK
 from armik_sym.cli.output_files import prepare_folder, write_results
@@ -24,17 +24,24 @@ def solve(
         ),
     ] = "trajectory",
     orientation: Annotated[
-        str | None, typer.Option(help="full, pointing or none; default: full if the path has rotations.")
+        str | None,
+        typer.Option(
+            help="full, none or (trajectory only) pointing; default: full if the path has rotations."
+        ),
     ] = None,
     tracking: Annotated[
-        str | None, typer.Option(help="exact, or soft for noisy or unreachable paths; default: exact.")
+        str | None, typer.Option(help="Trajectory only: exact, or soft for noisy or unreachable paths.")
     ] = None,
     max_speed: Annotated[float | None, typer.Option(help="Largest joint speed, in deg/s.")] = None,
     max_acceleration: Annotated[
-        float | None, typer.Option(help="Largest joint acceleration, in deg/s^2.")
+        float | None, typer.Option(help="Trajectory only: largest joint acceleration, deg/s^2.")
     ] = None,
     start: Annotated[
         str | None, typer.Option(help="Known first posture: degrees, separated by commas, one per joint.")
+    ] = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="Further option of the method (SI), repeatable."),
     ] = None,
     seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
     backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
@@ -49,7 +56,9 @@ def solve(
     import armik_sym as ak
 
     chosen_backend = backend_name(backend)
+    only_for_trajectory(method, {"--tracking": tracking, "--max-acceleration": max_acceleration})
     options: dict[str, Any] = {
+        **settings(set_ or []),
         **rate("max_speed", max_speed),
         **rate("max_acceleration", max_acceleration),
         **{

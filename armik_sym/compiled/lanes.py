@@ -29,7 +29,7 @@ _FUNCTION = """\
 #define real lanes
 #define sin lanes_sin
 #define cos lanes_cos
-static {function}
+static inline {function}
 #undef cos
 #undef sin
 #undef real

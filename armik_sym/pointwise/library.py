@@ -138,14 +138,27 @@ def _function(symbols: ArmExpressions, name: str, value: ca.SX) -> ca.Function:
     return ca.Function(name, [symbols.q, symbols.lengths], [out], ["q", "lengths"], ["out"])
 
 
+def library_source(arm: Arm) -> str:
+    """C source of the library of an arm: all loops that fit it.
+
+    Args:
+        arm: The arm.
+
+    Returns:
+        C source.
+
+    Source:
+        None (packaging).
+    """
+    functions, loops = pointwise_functions(arm), LOOPS
+    if closed_form_fits(arm):
+        return pointwise_source(functions | search_functions(), arm.dof, (*loops, *ALFAIZ_LOOPS))
+    return pointwise_source(functions, arm.dof, loops)
+
+
 @functools.lru_cache(maxsize=64)
 def _library(structure: ArmStructure, backend: Backend) -> PointwiseLibrary:
     started = time.perf_counter()
-    arm = structure.arm
-    loops: tuple[str, ...] = LOOPS
-    functions = pointwise_functions(arm)
-    if closed_form_fits(arm):
-        functions, loops = functions | search_functions(), loops + ALFAIZ_LOOPS
-    source = pointwise_source(functions, arm.dof, loops)
+    source = library_source(structure.arm)
     build_time = time.perf_counter() - started
     return PointwiseLibrary(build_or_none(source, backend), build_time)

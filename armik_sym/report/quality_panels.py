@@ -10,7 +10,7 @@ from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from armik_sym.arm.display_units import joint_units
-from armik_sym.report.style import LIMIT, SOLVED, TEXT_SIZE, label, remark, style_axes
+from armik_sym.report.style import LIMIT, MEASURED, SOLVED, TEXT_SIZE, label, remark, style_axes
 from armik_sym.report.words import at_most, joint_title, plain, power_of_ten
 from armik_sym.solution import Solution
 from armik_sym.solution.motion_rates import joint_speed
@@ -37,6 +37,26 @@ class PanelWords:
     title: str
     unit: str
     allowed: float
+
+
+def mark_missed(axes: Axes, solution: Solution) -> None:
+    """Mark at the foot of a panel the samples at which a pointwise method stopped short.
+
+    Args:
+        axes: The panel, time to the right.
+        solution: The solution.
+
+    Source:
+        None (reporting).
+    """
+    if solution.reached is None or solution.reached.all():
+        return
+    missed = solution.time[~solution.reached]
+    foot = np.full(len(missed), 0.03)
+    axes.plot(missed, foot, "|", color=MEASURED, markersize=7, transform=axes.get_xaxis_transform())
+    axes.text(
+        0.98, 0.06, "| not reached", color=MEASURED, ha="right", fontsize=TEXT_SIZE, transform=axes.transAxes
+    )
 
 
 def draw_error(axes: Axes, time: Array, error: Array, words: PanelWords) -> None:

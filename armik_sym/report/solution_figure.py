@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from armik_sym.motion.joint_motion import JointMotion
 from armik_sym.report.joint_panel import draw_joint, draw_key
 from armik_sym.report.page import new_figure
-from armik_sym.report.quality_panels import PanelWords, draw_error, draw_speed
+from armik_sym.report.quality_panels import PanelWords, draw_error, draw_speed, mark_missed
 from armik_sym.solution import Solution
 from armik_sym.symbolic import Orientation
 
@@ -53,7 +53,9 @@ def solution_figure(
 
     need = solution.requirements
     position = PanelWords("Position error", "mm", 1000 * need.position_tolerance)
-    draw_error(figure.add_subplot(grid[rows, 0]), solution.time, 1000 * solution.position_error, position)
+    errors = figure.add_subplot(grid[rows, 0])
+    draw_error(errors, solution.time, 1000 * solution.position_error, position)
+    mark_missed(errors, solution)
     turned = solution.orientation is not Orientation.NONE
     if turned:
         rotation = PanelWords("Rotation error", "deg", float(np.rad2deg(need.rotation_tolerance)))

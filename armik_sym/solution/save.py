@@ -6,7 +6,7 @@ import csv
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -78,14 +78,16 @@ def _write_csv(solution: Solution, path: Path) -> None:
     names = zip(solution.arm.joint_names, units, strict=True)
     columns = ["time [s]", *(f"{name} [{unit.name}]" for name, unit in names)]
     columns += ["position_error [mm]", "rotation_error [deg]"]
-    values = np.column_stack(
-        [
-            solution.time,
-            solution.q * [unit.factor for unit in units],
-            1000 * solution.position_error,
-            np.rad2deg(solution.rotation_error),
-        ]
-    )
+    per_sample = [
+        solution.time,
+        solution.q * [unit.factor for unit in units],
+        1000 * solution.position_error,
+        np.rad2deg(solution.rotation_error),
+    ]
+    for name, told in _told_by_the_method(solution).items():
+        columns.append(f"{name} [-]")
+        per_sample.append(told.astype(np.float64))
+    values = np.column_stack(per_sample)
     with path.open("w", encoding="utf-8", newline="") as file:
         file.write(f"# {json.dumps(_record(solution))}\n")
         writer = csv.writer(file, lineterminator="\n")
@@ -93,17 +95,23 @@ def _write_csv(solution: Solution, path: Path) -> None:
         writer.writerows([[repr(float(value)) for value in row] for row in values])
 
 
+def _told_by_the_method(solution: Solution) -> dict[str, Any]:
+    """What a pointwise method says of each sample: whether it was reached (1 or 0), and its iterations."""
+    told = {"reached": solution.reached, "iterations": solution.sample_iterations}
+    return {name: values for name, values in told.items() if values is not None}
+
+
 def _write_npz(solution: Solution, path: Path) -> None:
-    np.savez_compressed(
-        path,
-        time=solution.time,
-        q=solution.q,
-        joint_names=np.array(solution.arm.joint_names),
-        lower=solution.arm.rom.lower,
-        upper=solution.arm.rom.upper,
-        path_position=solution.path.position,
-        path_rotation=np.empty((0, 3, 3)) if solution.path.rotation is None else solution.path.rotation,
-        position_error=solution.position_error,
-        rotation_error=solution.rotation_error,
-        record=np.array(json.dumps(_record(solution))),
-    )
+    arrays: dict[str, Any] = {
+        "time": solution.time,
+        "q": solution.q,
+        "joint_names": np.array(solution.arm.joint_names),
+        "lower": solution.arm.rom.lower,
+        "upper": solution.arm.rom.upper,
+        "path_position": solution.path.position,
+        "path_rotation": np.empty((0, 3, 3)) if solution.path.rotation is None else solution.path.rotation,
+        "position_error": solution.position_error,
+        "rotation_error": solution.rotation_error,
+        "record": np.array(json.dumps(_record(solution))),
+    }
+    np.savez_compressed(path, **arrays, **_told_by_the_method(solution))
