@@ -150,6 +150,9 @@ def defaults(compiled: PointwiseLibrary) -> None:
 
 def smooth_path(compiled: PointwiseLibrary) -> None:
     print("\n2,000 samples of a smooth motion, from its first posture")
+    print("Following is greedy: in a tight range it can run into a dead end and must jump, which 'reached'")
+    print("does not show, the largest step does. 'hull' is the range the motion covers, widened by 0.02 rad")
+    print("(median of 20 motions over 400 samples).")
     print("range      reached  µs per pose  largest step (of the motion)  smallest margin (of the motion)")
     for name, arm in arms().items():
         t, phase = np.linspace(0, 20, 2000)[:, None], np.random.default_rng(3).uniform(0, 6, (3, 7))
@@ -167,6 +170,26 @@ def smooth_path(compiled: PointwiseLibrary) -> None:
             f"{name:10} {100 * found.reached.mean():6.2f}% {1e6 * best / len(q):10.2f}"
             f" {step:16.3f}° ({true:.3f}°)" + "{:18.3f}° ({:.3f}°)".format(*margins)
         )
+    steps = []
+    for seed in range(20):
+        arm, q = hull_of_a_motion(np.random.default_rng(seed))
+        began = time.perf_counter()
+        found = run_alfaiz(arm, poses(arm, q), AlfaizOptions(), start=q[0], library=compiled)
+        each = 1e6 * (time.perf_counter() - began) / len(q)
+        largest = [np.rad2deg(np.abs(np.diff(x, axis=0)).max()) for x in (found.q, q)]
+        margins = [np.rad2deg(arm.rom.margin(x).min()) for x in (found.q, q)]
+        steps.append([100 * found.reached.mean(), each, *largest, *margins])
+    row = "hull       {:6.2f}% {:10.2f} {:16.3f}° ({:.3f}°){:18.3f}° ({:.3f}°)"
+    print(row.format(*np.median(steps, axis=0)))
+
+
+def hull_of_a_motion(rng: np.random.Generator) -> tuple[Arm, np.ndarray]:
+    """A smooth motion, and the arm with hardly more range than the motion needs."""
+    rom, t = alfaiz().rom, np.linspace(0, 4, 400)
+    waves = np.sin(np.outer(t, rng.uniform(0.2, 1.5, 7)) + rng.uniform(0, 2 * np.pi, 7))
+    q = rom.middle + 0.45 * rom.width * waves
+    lower, upper = np.maximum(rom.lower, q.min(0) - 0.02), np.minimum(rom.upper, q.max(0) + 0.02)
+    return alfaiz().with_rom(lower, upper), q
 
 
 def pose_error(arm: Arm, q: np.ndarray, pose: np.ndarray) -> float:

@@ -143,8 +143,15 @@ class Bench:
 
 def show_defaults(repeats: int) -> None:
     pro = ProIsadeOptions()
+    cosines = dataclasses.replace(pro, rotation_measure="cosines")
     cases = (
         (5, Orientation.NONE, pro, "Pro-ISADE, position"),
+        (
+            5,
+            Orientation.NONE,
+            dataclasses.replace(pro, stall=0.0),
+            "Pro-ISADE as published (stall = 0), position",
+        ),
         (
             5,
             Orientation.NONE,
@@ -153,6 +160,7 @@ def show_defaults(repeats: int) -> None:
         ),
         (5, Orientation.NONE, IsadeOptions(), "ISADE, position"),
         (7, Orientation.FULL, pro, "Pro-ISADE, pose"),
+        (7, Orientation.FULL, cosines, "Pro-ISADE, position and direction cosines"),
     )
     for dof, orientation, options, title in cases:
         bench = Bench(dof, orientation)

@@ -32,6 +32,7 @@ from armik_sym.symbolic import Orientation
 from armik_sym.symbolic.alfaiz_closed_form import search_functions
 
 ARMS = {"default": alfaiz, "narrow": narrow_arm, "tight": tight_arm, "everywhere": everywhere_arm}
+HULLS = range(10)
 MARGIN = AlfaizOptions(prefer="margin")
 
 
@@ -136,6 +137,40 @@ def test_a_smooth_motion_is_followed_smoothly(name, seed):
     step, true = np.abs(np.diff(found.q, axis=0)).max(), np.abs(np.diff(q, axis=0)).max()
     assert step < 5 * true
     assert np.abs(found.q[0] - q[0]).max() < 1e-9
+
+
+def hull_of_a_motion(seed):
+    """A smooth motion, and the arm with hardly more range than the motion needs."""
+    rng, rom, t = np.random.default_rng(seed), alfaiz().rom, np.linspace(0, 4, 400)
+    waves = np.sin(np.outer(t, rng.uniform(0.2, 1.5, 7)) + rng.uniform(0, 2 * np.pi, 7))
+    q = rom.middle + 0.45 * rom.width * waves
+    lower, upper = np.maximum(rom.lower, q.min(0) - 0.02), np.minimum(rom.upper, q.max(0) + 0.02)
+    return alfaiz().with_rom(lower, upper), q
+
+
+def nearest_by_dense_scan(arm, pose, before, count=3000):
+    """Distance of the nearest posture inside the range of motion over a dense scan of φ and all branches."""
+    phi, nearest = np.linspace(-np.pi, np.pi, count, endpoint=False), np.inf
+    position, rotation = np.tile(pose[:3], (count, 1)), np.tile(pose[3:], (count, 1))
+    for sides in itertools.product((1, -1), repeat=3):
+        q, exists = postures_at(arm, position, rotation, phi, sides)
+        for wish in (before, arm.rom.middle):
+            turned = q + 2 * np.pi * np.round((wish - q) / (2 * np.pi))
+            good = exists & (arm.rom.margin(turned).min(axis=1) >= 0)
+            nearest = min(nearest, np.linalg.norm(turned[good] - before, axis=1).min(initial=np.inf))
+    return nearest
+
+
+@pytest.mark.parametrize("seed", HULLS)
+def test_no_dense_scan_over_phi_finds_a_nearer_posture(seed):
+    """The largest steps along a motion in a range that hardly leaves room for it."""
+    arm, q = hull_of_a_motion(seed)
+    goal = targets(arm, q)
+    found = run(arm, goal, AlfaizOptions(), q[0])
+    assert found.reached.all()
+    steps = np.linalg.norm(np.diff(found.q, axis=0), axis=1)
+    for i in np.argsort(-steps)[:4]:
+        assert steps[i] <= nearest_by_dense_scan(arm, goal.pose[i + 1], found.q[i]) + 0.01
 
 
 def test_each_pose_by_itself_is_no_smooth_path():

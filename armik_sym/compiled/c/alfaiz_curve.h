@@ -39,7 +39,7 @@
 #define ALFAIZ_PI ((real)3.14159265358979323846)
 #define ALFAIZ_TURN ((real)6.28318530717958647693)
 #define ALFAIZ_CUTS 24         /* six joints, two limits, two cuts each */
-#define ALFAIZ_MOST (ALFAIZ_CUTS + 256)
+#define ALFAIZ_MOST (2 * ALFAIZ_CUTS + 257) /* swivel angles looked at together */
 #define ALFAIZ_OUTSIDE 10000   /* cost of leaving the range of motion: more than any distance inside */
 
 /* The range of motion, with what does not change along a path. */
@@ -158,21 +158,24 @@ static inline void alfaiz_look(alfaiz_problem *p, real psi, alfaiz_posture *out)
   if (p->previous && margin < -ALFAIZ_ROUNDING) out->cost += ALFAIZ_OUTSIDE;
 }
 
+/* Sort a swivel angle into n others. Returns their new number. */
+static inline int alfaiz_insert(real psi, real *sorted, int n) {
+  if (psi >= ALFAIZ_PI) psi -= ALFAIZ_TURN;
+  if (psi < -ALFAIZ_PI) psi += ALFAIZ_TURN;
+  int i = n;
+  for (; i > 0 && sorted[i - 1] > psi; --i) sorted[i] = sorted[i - 1];
+  sorted[i] = psi;
+  return n + 1;
+}
+
 /* psi with a + b cos psi + c sin psi = 0, sorted into the others. */
 static inline int alfaiz_add_cuts(real a, real b, real c, real *cuts, int n) {
   const real h = ALFAIZ_SQRT(b * b + c * c), square = (h - a) * (h + a);
   if (!(h > ALFAIZ_ROUNDING) || square < -ALFAIZ_ROUNDING * h * h) return n;
   const real towards = ALFAIZ_ATAN2(c, b);
   const real aside = ALFAIZ_ATAN2(square > 0 ? ALFAIZ_SQRT(square) : 0, -a);
-  for (int k = 0; k < 2; ++k) {
-    real psi = k ? towards - aside : towards + aside;
-    if (psi >= ALFAIZ_PI) psi -= ALFAIZ_TURN;
-    if (psi < -ALFAIZ_PI) psi += ALFAIZ_TURN;
-    int i = n++;
-    for (; i > 0 && cuts[i - 1] > psi; --i) cuts[i] = cuts[i - 1];
-    cuts[i] = psi;
-  }
-  return n;
+  n = alfaiz_insert(towards + aside, cuts, n);
+  return alfaiz_insert(towards - aside, cuts, n);
 }
 
 /* All psi at which a joint other than the elbow is at a limit, or half a turn from it; sorted.

@@ -5,6 +5,7 @@
  */
 #define ALFAIZ_ZOOM 16 /* swivel angles per refinement */
 #define ALFAIZ_STEPS 8 /* Newton steps of alfaiz_follow */
+#define ALFAIZ_VALLEYS 3 /* postures alfaiz_nearest follows */
 
 /* What Python chooses. */
 typedef struct {
@@ -24,6 +25,11 @@ static inline int alfaiz_try(alfaiz_problem *p, real psi, alfaiz_posture *best) 
   return 1;
 }
 
+/* The middle of the stretch after a cut. */
+static inline real alfaiz_middle(const real *cuts, int n_cuts, int i) {
+  return (real)0.5 * (cuts[i] + (i + 1 < n_cuts ? cuts[i + 1] : cuts[0] + ALFAIZ_TURN));
+}
+
 /* Index of the largest of n numbers. */
 static inline int alfaiz_largest(int n, const real *x) {
   int best = 0;
@@ -41,7 +47,7 @@ static inline void alfaiz_farthest(alfaiz_problem *p, const alfaiz_settings *set
   const real spacing = ALFAIZ_TURN / (real)grid;
   for (int i = 0; i < grid; ++i) psi[i] = spacing * (real)i - ALFAIZ_PI;
   for (int i = 0; i < n_cuts; ++i)
-    psi[grid + i] = (real)0.5 * (cuts[i] + (i + 1 < n_cuts ? cuts[i + 1] : cuts[0] + ALFAIZ_TURN));
+    psi[grid + i] = alfaiz_middle(cuts, n_cuts, i);
   alfaiz_margins(p, grid + n_cuts, psi, margins);
   int k = alfaiz_largest(grid + n_cuts, margins);
   real middle = psi[k], margin = margins[k], aside = spacing;
@@ -90,7 +96,8 @@ static inline void alfaiz_follow(alfaiz_problem *p, alfaiz_posture *best) {
     if (ALFAIZ_FABS(step) < (real)1e-4) { /* too small to be judged by the cost */
       alfaiz_posture new_one;
       alfaiz_look(p, best->psi + step, &new_one);
-      if (!(new_one.margin >= -ALFAIZ_ROUNDING)) return;
+      if (!(new_one.margin >= -ALFAIZ_ROUNDING && new_one.cost <= best->cost + (real)1e-8)) return;
+      if (new_one.flipped[0] != best->flipped[0] || new_one.flipped[1] != best->flipped[1]) return;
       *best = new_one;
       continue;
     }
@@ -99,20 +106,6 @@ static inline void alfaiz_follow(alfaiz_problem *p, alfaiz_posture *best) {
       better = alfaiz_try(p, best->psi + step, best);
     if (!better) return;
   }
-}
-
-/* The best posture on the whole circle. */
-static inline void alfaiz_search(alfaiz_problem *p, const alfaiz_settings *settings, alfaiz_posture *best) {
-  real cuts[ALFAIZ_CUTS];
-  const int n = alfaiz_cuts(p, cuts);
-  const real spacing = ALFAIZ_TURN / (real)settings->grid;
-  alfaiz_farthest(p, settings, cuts, n, best);
-  if (p->previous)
-    for (int i = 0; i < settings->grid; ++i) alfaiz_try(p, spacing * (real)i - ALFAIZ_PI, best);
-  /* Where only single postures are inside, they are at cuts; so are many that are near. */
-  if (p->previous || best->margin < 0)
-    for (int i = 0; i < n; ++i) alfaiz_try(p, cuts[i], best);
-  if (p->previous && best->margin >= -ALFAIZ_ROUNDING) alfaiz_follow(p, best);
 }
 
 /* The swivel angle at which the upper arm is turned most like before. */
@@ -129,6 +122,52 @@ static inline real alfaiz_swivel_before(const alfaiz_problem *p) {
     s += p->curve[19 + i] * S[i];
   }
   return ALFAIZ_ATAN2(s, c);
+}
+
+/* The posture nearest to the one before: a grid, the swivel angle before, the cuts and the middles between
+ * them, then downhill from the best few that are better than their neighbours. Returns whether one is inside the range of motion. */
+static inline int alfaiz_nearest(alfaiz_problem *p, const alfaiz_settings *settings, const real *cuts,
+                                 int n_cuts, alfaiz_posture *best) {
+  real psi[ALFAIZ_MOST], costs[ALFAIZ_MOST], heights[ALFAIZ_MOST];
+  alfaiz_posture at;
+  int n = settings->grid, found = 0;
+  const real spacing = ALFAIZ_TURN / (real)n;
+  for (int i = 0; i < n; ++i) psi[i] = spacing * (real)i - ALFAIZ_PI;
+  n = alfaiz_insert(alfaiz_swivel_before(p), psi, n);
+  for (int i = 0; i < n_cuts; ++i) {
+    n = alfaiz_insert(cuts[i], psi, n);
+    n = alfaiz_insert(alfaiz_middle(cuts, n_cuts, i), psi, n);
+  }
+  for (int i = 0; i < n; ++i) {
+    alfaiz_look(p, psi[i], &at);
+    costs[i] = at.cost;
+  }
+  for (int i = 0; i < n; ++i) {
+    const int valley = costs[i] < costs[i ? i - 1 : n - 1] && costs[i] <= costs[i + 1 < n ? i + 1 : 0];
+    heights[i] = valley ? -costs[i] : -ALFAIZ_OUTSIDE;
+  }
+  for (int k = 0; k < ALFAIZ_VALLEYS; ++k) {
+    const int i = alfaiz_largest(n, heights);
+    if (!(heights[i] > -ALFAIZ_OUTSIDE)) break;
+    heights[i] = -ALFAIZ_OUTSIDE;
+    alfaiz_look(p, psi[i], &at);
+    alfaiz_follow(p, &at);
+    if (!found || at.cost < best->cost) *best = at;
+    found = 1;
+  }
+  return found;
+}
+
+/* The best posture on the whole circle. */
+static inline void alfaiz_search(alfaiz_problem *p, const alfaiz_settings *settings, alfaiz_posture *best) {
+  real cuts[ALFAIZ_CUTS];
+  const int n = alfaiz_cuts(p, cuts);
+  if (p->previous && alfaiz_nearest(p, settings, cuts, n, best)) return;
+  alfaiz_farthest(p, settings, cuts, n, best);
+  /* Where only single postures are inside, they are at cuts. */
+  if (best->margin < 0)
+    for (int i = 0; i < n; ++i) alfaiz_try(p, cuts[i], best);
+  if (p->previous && best->margin >= -ALFAIZ_ROUNDING) alfaiz_follow(p, best);
 }
 
 static inline void alfaiz_prepare(alfaiz_problem *p, const alfaiz_range *range, const real *target,

@@ -37,15 +37,23 @@ static inline void isade_run(struct isade_search *search, uint64_t key, int cent
     isade_generation(search, iter);
     ++*generations;
     const real best = search->cost[search->best];
-    if (search->travel_weight == 0 && search->worst - best < settings->stall * best) return;
+    if (search->may_stall && search->worst - best < settings->stall * best) return;
   }
 }
 
-/* Bounds of a search: the window around the centre inside the range of motion. */
+/* around + window; where that rounds to more than the window, one or two numbers nearer. */
+static inline real isade_window_end(real around, real window) {
+  const real end = around + window, ulp = (real)(REAL_IS_FLOAT ? 1.0 / (1 << 23) : 1.0 / (INT64_C(1) << 52));
+  if (!(REAL_FABS(end - around) > REAL_FABS(window))) return end;
+  return window > 0 ? end - REAL_FABS(end) * ulp : end + REAL_FABS(end) * ulp;
+}
+
+/* Bounds of a search: the window around a posture inside the range of motion. The difference of a posture
+ * inside and that one, rounded, is never above the window. */
 static inline void isade_bounds(struct isade_search *search, const real *around, const real *lower,
                                 const real *upper, real window) {
   for (int j = 0; j < DOF; ++j) {
-    const real below = around[j] - window, above = around[j] + window;
+    const real below = isade_window_end(around[j], -window), above = isade_window_end(around[j], window);
     search->lower[j] = below > lower[j] ? below : lower[j];
     search->upper[j] = above < upper[j] ? above : upper[j];
   }
@@ -56,11 +64,12 @@ static inline void isade_move_to_best(struct isade_search *search) {
   for (int j = 0; j < DOF; ++j) search->centre[j] = best[j];
 }
 
-/* First sample: full range of motion, a > 0, q_0 is the centre and one of the individuals. Returns b |hand
+/* First sample: full range of motion, a >= 0, no stall, q_0 is the centre and one of the individuals. Returns b |hand
  * error| of the best, which becomes the centre. */
 static inline real isade_first(struct isade_search *search, uint64_t key, const real *lower,
                                const real *upper, int *generations) {
   search->travel_weight = search->settings->travel_weight;
+  search->may_stall = 0;
   isade_bounds(search, search->centre, lower, upper, REAL_INFINITY);
   isade_run(search, random_branch(key, 0), 1, search->settings->iter_max, generations);
   isade_move_to_best(search);
@@ -79,6 +88,7 @@ static inline real isade_following(struct isade_search *search, uint64_t key, co
   int spent = 0;
   real error = REAL_INFINITY;
   search->travel_weight = 0;
+  search->may_stall = 1;
   for (int j = 0; j < DOF; ++j) previous[j] = search->centre[j];
   for (uint64_t attempt = 1; spent < settings->iter_max && !(error < settings->stop); ++attempt) {
     isade_bounds(search, moving ? search->centre : previous, lower, upper, settings->window);

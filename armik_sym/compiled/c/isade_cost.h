@@ -41,6 +41,7 @@ static inline void isade_hand_costs(const struct isade_search *search, const rea
   const struct isade_settings *settings = search->settings;
   lanes lengths[N_LENGTHS + 1], q[DOF], out[12];
   for (int j = 0; j < N_LENGTHS; ++j) lengths[j] = lanes_of(search->lengths[j]);
+  for (int j = 0; j < DOF; ++j) q[j] = lanes_of(0.0); /* so that a compiler sees a value */
   for (int first = 0; first < settings->population; first += LANES) {
     const real *block = rows + (ptrdiff_t)first * ISADE_ROW;
     for (int j = 0; j < DOF; ++j)

@@ -179,7 +179,8 @@ static inline void isade_generation(struct isade_search *search, int iter) {
     search->words[k] = random_bits(search->key_of_choices, first * ISADE_WORDS + (uint64_t)k);
   for (int i = 0; i < population; ++i) {
     const uint64_t *words = search->words + (ptrdiff_t)i * ISADE_WORDS;
-    search->rate[i] = random_unit(words[3]) < settings->tau ? words[4] >> 11 : search->rate[i]; /* (15) */
+    /* (15); printed with <=, but rand may be 0, and tau = 0 has to mean never. */
+    search->rate[i] = random_unit(words[3]) < settings->tau ? words[4] >> 11 : search->rate[i];
     const real by_rank = search->by_rank[isade_rank(search->cost, population, search->cost[i])];
     const real F = (by_rank + settings->sign * mean) / 2;                                       /* (14) */
     isade_trial(search, i, F, words, first + (uint64_t)i, search->trials + (ptrdiff_t)i * ISADE_ROW);

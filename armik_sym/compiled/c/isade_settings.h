@@ -51,6 +51,7 @@ struct isade_search {
   const struct isade_settings *settings;
   const real *target, *lengths; /* pose of the hand: p, then R row by row; segment lengths */
   real travel_weight;           /* a of eq. (16) in this search */
+  int may_stall;                /* 1: this search ends if it stalls */
   real lower[ISADE_ROW], upper[ISADE_ROW], centre[ISADE_ROW];
   real *population, *trials;          /* rows */
   real *cost, *trial_cost, *by_rank;  /* by_rank: F_i of eq. (12) */

@@ -19,6 +19,10 @@ class AlfaizOptions(Judging):
     Every posture looked at reaches the pose exactly; the one free number and the branches are chosen for the
     range of motion. Defaults by experiment, see `benchmarks/alfaiz.py`.
 
+    Following is greedy: each sample takes the posture nearest to the one before and never looks ahead. In a
+    tight range of motion this can run into a dead end, from which only a jump leads on, although a smooth
+    motion exists. `reached` says nothing about that; the largest step between samples does.
+
     Attributes:
         search: "corrected", or "printed" for the equations and the objective (57) as printed, which
             lose quadrants, miss many poses and know no range of motion.
@@ -42,7 +46,7 @@ class AlfaizOptions(Judging):
     prefer: Literal["nearest", "margin"] = "nearest"
     grid: int = 32
     refinements: int = 2
-    near: float = 0.3
+    near: float = 0.05
     tolerance: float = 1e-9
 
     def __post_init__(self) -> None:

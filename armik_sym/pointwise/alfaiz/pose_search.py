@@ -20,6 +20,7 @@ _OUTSIDE = 10_000.0
 _TURN = 2 * np.pi
 _STEPS = 8
 _ZOOM = 16
+_VALLEYS = 3
 _GROUPS = (slice(0, 3), slice(4, 7))
 
 
@@ -83,10 +84,10 @@ class PoseSearch:
             Al-Faiz, §3.2.
         """
         cuts = limit_cuts(self._parts, self._rom)
+        if self._previous is not None and (nearest := self._nearest(grid, cuts)) is not None:
+            return nearest
         best = self._farthest(grid, refinements, cuts)
-        if self._previous is not None:
-            best = self._try(_angles(grid, _TURN / grid, -np.pi), best)
-        if cuts.size and (self._previous is not None or best.margin < 0):
+        if cuts.size and best.margin < 0:
             best = self._try(cuts, best)
         if self._previous is not None and best.margin >= -ROUNDING:
             best = self._follow(best)
@@ -104,21 +105,39 @@ class PoseSearch:
         Source:
             None (this package).
         """
-        before = self._wish
-        S = evaluate("alfaiz_shoulder", before)[0]
-        psi = float(np.arctan2(self._parts[0, 2] @ S, self._parts[0, 1] @ S))
-        best = self._look(np.array([psi]))[0]
+        best = self._look(np.array([self._swivel_before()]))[0]
         if best.margin < -ROUNDING:
             return None
         best = self._follow(best)
-        return best if np.abs(best.q - before).max() <= near else None
+        return best if np.abs(best.q - self._wish).max() <= near else None
+
+    def _swivel_before(self) -> float:
+        """The swivel angle at which the upper arm is turned most like before."""
+        S = evaluate("alfaiz_shoulder", self._wish)[0]
+        return float(np.arctan2(self._parts[0, 2] @ S, self._parts[0, 1] @ S))
+
+    def _nearest(self, grid: int, cuts: Array) -> Posture | None:
+        """The best few of grid, swivel before, cuts and middles between them, each followed downhill."""
+        psi = np.append(_angles(grid, _TURN / grid, -np.pi), self._swivel_before())
+        if cuts.size:
+            middles = _middles(cuts)
+            psi = np.concatenate([psi, cuts, middles - _TURN * (middles >= np.pi)])
+        psi = np.sort(psi - _TURN * (psi >= np.pi))
+        looked = self._look(psi)
+        costs = np.array([posture.cost for posture in looked])
+        valley = (costs < np.roll(costs, 1)) & (costs <= np.roll(costs, -1)) & (costs < _OUTSIDE)
+        lowest = np.flatnonzero(valley)
+        lowest = lowest[np.argsort(costs[lowest], kind="stable")][:_VALLEYS]
+        self.evaluations += len(lowest)
+        followed = [self._follow(looked[i]) for i in lowest]
+        return min(followed, key=lambda posture: posture.cost, default=None)
 
     def _farthest(self, grid: int, refinements: int, cuts: Array) -> Posture:
         """The swivel angle farthest from all limits: a grid and one angle per cell, then more closely."""
         spacing = _TURN / grid
         psi = _angles(grid, spacing, -np.pi)
         if cuts.size:
-            psi = np.append(psi, 0.5 * (cuts + np.append(cuts[1:], cuts[0] + _TURN)))
+            psi = np.append(psi, _middles(cuts))
         margins = self._margins(psi)
         k = int(np.argmax(margins))
         middle, margin = float(psi[k]), margins[k]
@@ -197,7 +216,9 @@ class PoseSearch:
             step = float(np.clip(step, -0.5, 0.5))
             if abs(step) < 1e-4:  # too small to be judged by the cost
                 new = self._look(np.array([best.psi + step]))[0]
-                if not new.margin >= -ROUNDING:
+                if not (new.margin >= -ROUNDING and new.cost <= best.cost + 1e-8):
+                    return best
+                if new.flipped != best.flipped:
                     return best
                 best = new
                 continue
@@ -236,6 +257,11 @@ class PoseSearch:
 
 def _angles(count: int, spacing: float, first: float) -> Array:
     return first + spacing * np.arange(count, dtype=np.float64)
+
+
+def _middles(cuts: Array) -> Array:
+    """The middle of the stretch after every cut."""
+    return np.asarray(0.5 * (cuts + np.append(cuts[1:], cuts[0] + _TURN)))
 
 
 def _both(angles: Array) -> Array:

@@ -53,7 +53,8 @@ class PrintedLoop:
         """
         rom = self._arm.rom
         for i in range(part.start, part.stop):
-            q, _, found.evaluations[i] = self.best(targets[i])
+            with np.errstate(all="ignore"):  # targets may be infinite, or overflow
+                q, _, found.evaluations[i] = self.best(targets[i])
             if not np.isfinite(q).all():
                 if i > part.start and chain:
                     q = found.q[i - 1]
@@ -62,7 +63,8 @@ class PrintedLoop:
             q = rom.clip(q + _TURN * np.round((rom.middle - q) / _TURN))
             found.q[i] = q
             position, rotation = self._kinematics.position(q), self._kinematics.rotation(q)
-            found.reached[i] = arrived(position, rotation, targets[i], self._options.tolerance)
+            with np.errstate(all="ignore"):
+                found.reached[i] = arrived(position, rotation, targets[i], self._options.tolerance)
 
     def best(self, target: Array) -> tuple[Array, float, int]:
         """The φ with the least error.

@@ -22,8 +22,10 @@ from armik_sym.progress import Progress, ProgressCallback
 
 Array = NDArray[np.float64]
 
-# Samples per call into C: short enough that Ctrl-C is heard within a fraction of a second.
+# Samples per call into C, and work per call (`IsadeOptions.work_for`) at some 150 ns each: Ctrl-C is heard
+# after 0.3 s, or after the sample if that one takes longer.
 BLOCK = 32
+WORK = 2_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +129,7 @@ def _follow(
     q, error = np.empty((n, arm.dof)), np.full(n, np.inf)
     generations, evaluations = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     pose = np.ascontiguousarray(job.targets.pose)
-    step = BLOCK if library.library else 1
+    step = max(1, min(BLOCK, WORK // options.work_for(measure))) if library.library else 1
     compiled = CompiledSearch(library.library, arm, options, measure) if library.library else None
     plain = None if compiled else NumpySearch(arm, options, measure)
     for first in range(0, n, step):

@@ -62,9 +62,9 @@ class NumpySearch:
     def sample(self, k: int, target: Array, previous: Array, seed: int) -> SampleResult:
         """Search for sample k of a path.
 
-        The first one: full range of motion, a > 0; then, if the hand is not there yet, and for all others:
-        a = 0 in the window around the previous posture. After a stall another search follows in the same
-        window, or, if the window moves, in one around the best posture so far.
+        The first one: full range of motion, a ≥ 0, no stall; then, if the hand is not there yet, and for
+        all others: a = 0 in the window around the previous posture. After a stall another search follows in
+        the same window, or, if the window moves, in one around the best posture so far.
 
         Args:
             k: Index of the sample.
@@ -78,10 +78,22 @@ class NumpySearch:
         Source:
             Nguyen 2021, §3.3.
         """
-        options, key = self._options, random_branch(seed, k)
+        with np.errstate(all="ignore"):  # targets that are no numbers, or too far away to square
+            return self._sample(k, target, previous, random_branch(seed, k))
+
+    def _sample(self, k: int, target: Array, previous: Array, key: int) -> SampleResult:
+        options = self._options
         q, error, generations, evaluations = previous, math.inf, 0, 0
         if k == 0:
-            found, generations = self._run(random_branch(key, 0), target, q, math.inf, True, options.iter_max)
+            found, generations = self._run(
+                random_branch(key, 0),
+                target,
+                q,
+                math.inf,
+                True,
+                options.iter_max,
+                travel_weight=options.travel_weight,
+            )
             evaluations = self._population * (generations + 1)
             q = found.q[found.best]
             error = float(self._hand_cost(q[None], target)[0])
@@ -100,7 +112,7 @@ class NumpySearch:
                 seeded,
                 left,
                 around=q if moves else previous,
-                travel=False,
+                may_stall=True,
             )
             spent, attempt = spent + took, attempt + 1
             evaluations += self._population * (took + 1)
@@ -118,41 +130,50 @@ class NumpySearch:
         iter_max: int,
         *,
         around: Array | None = None,
-        travel: bool = True,
+        travel_weight: float = 0.0,
+        may_stall: bool = False,
     ) -> tuple[Population, int]:
         """One search: the last population, and how many generations it took."""
         options, n, dof = self._options, self._population, len(centre)
         choices, repairs = random_branch(key, 1), random_branch(key, 2)
         middle = centre if around is None else around
-        lower = np.maximum(middle - window, self._rom.lower)
-        upper = np.minimum(middle + window, self._rom.upper)
+        lower = np.maximum(_window_end(middle, -window), self._rom.lower)
+        upper = np.minimum(_window_end(middle, window), self._rom.upper)
         q, rate = first_population(random_branch(key, 0), n, lower, upper)
         if seeded:
             q[0] = centre
-        now = Population(q, self._cost(q, target, centre, travel), rate)
+        now = Population(q, self._cost(q, target, centre, travel_weight), rate)
         for iteration in range(1, iter_max + 1):
             if now.cost[now.best] < options.stop:
                 return now, iteration - 1
             first = (iteration - 1) * n
             words = random_bits(choices, first * (5 + dof) + np.arange(n * (5 + dof))).reshape(n, 5 + dof)
+            # Eq. (15); printed with ≤, but rand may be 0, and τ = 0 has to mean never.
             fresh = random_unit(words[:, 3]) < options.tau
-            now.rate = np.where(fresh, random_unit(words[:, 4]), now.rate)  # eq. (15)
+            now.rate = np.where(fresh, random_unit(words[:, 4]), now.rate)
             factors = scale_factors(options, now.cost, self._by_rank, iteration)
             spare = None
             if options.repair == "random":
                 spare = random_bits(repairs, first * dof + np.arange(n * dof)).reshape(n, dof)
             tried = trials(options, now, factors, words, (lower, upper), spare)
-            cost = self._cost(tried, target, centre, travel)
+            cost = self._cost(tried, target, centre, travel_weight)
             better = cost <= now.cost
             now.q = np.where(better[:, None], tried, now.q)
             now.cost = np.where(better, cost, now.cost)
             best = now.cost[now.best]
-            if not travel and now.cost.max() - best < options.stall * best:
+            if may_stall and now.cost.max() - best < options.stall * best:
                 return now, iteration
         return now, iter_max
 
-    def _cost(self, q: Array, target: Array, centre: Array, travel: bool) -> Array:
+    def _cost(self, q: Array, target: Array, centre: Array, travel_weight: float) -> Array:
         cost = self._hand_cost(q, target)
-        if travel and self._options.travel_weight > 0:
-            cost = cost + self._options.travel_weight * np.sqrt(np.square(q - centre).sum(axis=1))
+        if travel_weight > 0:
+            cost = cost + travel_weight * np.sqrt(np.square(q - centre).sum(axis=1))
         return cost
+
+
+def _window_end(around: Array, window: float) -> Array:
+    """`around + window`; where that rounds to more than the window, one or two numbers nearer."""
+    end = around + window
+    nearer = end - np.sign(window) * np.abs(end) * np.finfo(np.float64).eps
+    return np.where(np.abs(end - around) > abs(window), nearer, end)
