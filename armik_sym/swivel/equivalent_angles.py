@@ -1,0 +1,53 @@
+"""Which of the angles q + 2πk a joint takes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+TURN = 2 * np.pi
+
+# By how much an angle may leave the range for rounding, in [rad].
+ROUNDING = 1e-12
+
+
+def nearest_in_range(angle: Array, lower: Array, upper: Array, wish: Array) -> Array:
+    """Of all angle + 2πk the one inside the range nearest to a wish, or leaving the range least.
+
+    Args:
+        angle: Angles, shape (…, k), in [rad].
+        lower: Lower limits, shape (k,), in [rad].
+        upper: Upper limits, shape (k,), in [rad].
+        wish: Wished angles, shape (…, k), in [rad].
+
+    Returns:
+        Shape (…, k), in [rad].
+
+    Source:
+        None (this package).
+    """
+    inside_wish = np.clip(wish, lower, upper)
+    q = angle + TURN * np.floor((inside_wish - angle) / TURN + 0.5)
+    down = (q > upper + ROUNDING) & (lower - (q - TURN) < q - upper)
+    up = (q < lower - ROUNDING) & (q + TURN - upper < lower - q)
+    return np.asarray(q - TURN * down + TURN * up)
+
+
+def margin(angle: Array, lower: Array, upper: Array) -> Array:
+    """How far the best of all angle + 2πk is inside the range: negative by how much it misses it.
+
+    Args:
+        angle: Angles, shape (…, k), in [rad].
+        lower: Lower limits, shape (k,), in [rad].
+        upper: Upper limits, shape (k,), in [rad].
+
+    Returns:
+        Half the range minus the distance from its middle, shape (…, k), in [rad].
+
+    Source:
+        None (this package).
+    """
+    away = angle - 0.5 * (lower + upper)
+    return np.asarray(0.5 * (upper - lower) - np.abs(away - TURN * np.rint(away / TURN)))
