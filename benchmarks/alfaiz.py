@@ -53,7 +53,7 @@ def library() -> PointwiseLibrary:
     kinematics = pointwise_functions(alfaiz())
     functions = {"pose": kinematics["pose"], **search_functions()}
     source = pointwise_source(functions, 7, loops=("lanes_atan2.h", "alfaiz_curve.h", "alfaiz_search.h"))
-    return PointwiseLibrary(build_or_none(source, "c"), 0.0)
+    return PointwiseLibrary(build_or_none(source, "c"))
 
 
 def arms() -> dict[str, Arm]:

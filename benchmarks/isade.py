@@ -87,7 +87,7 @@ class Bench:
         library = build_or_none(source + ONE_FK, "c")
         if library is None:
             raise SystemExit("needs a C compiler")
-        self.library = PointwiseLibrary(library, 0.0)
+        self.library = PointwiseLibrary(library)
         kin = ak.compile(self.arm)
         self.motions = {
             name: np.ascontiguousarray(ak.load_task(name).measured.q[:, :dof]) for name in ak.task_names()

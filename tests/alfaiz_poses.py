@@ -15,7 +15,7 @@ from armik_sym.pointwise.library import PointwiseLibrary, pointwise_functions, p
 from armik_sym.symbolic import Orientation
 from armik_sym.symbolic.alfaiz_closed_form import search_functions
 
-WITHOUT_COMPILER = PointwiseLibrary(None, 0.0)
+WITHOUT_COMPILER = PointwiseLibrary(None)
 
 
 def narrow_arm() -> Arm:
@@ -49,7 +49,7 @@ def source() -> str:
 
 @functools.cache
 def compiled() -> PointwiseLibrary:
-    return PointwiseLibrary(build_or_none(source(), "c"), 0.0)
+    return PointwiseLibrary(build_or_none(source(), "c"))
 
 
 def turned(difference: np.ndarray) -> np.ndarray:

@@ -25,7 +25,7 @@ LOOPS = (
     "damped_pose.h",
     "damped_path.h",
 )
-NUMPY = PointwiseLibrary(None, 0.0)
+NUMPY = PointwiseLibrary(None)
 
 # Single functions of the loops, for Python to call.
 EXPORTS = """
@@ -55,7 +55,7 @@ def source_of(arm: Arm, prelude: str = PRELUDE, precision: Precision = "double")
 def compiled(arm: Arm) -> PointwiseLibrary:
     """The compiled loops of one arm."""
     quickly = '#pragma GCC optimize("O1")\n'  # a third of the compile time
-    return PointwiseLibrary(build_or_none(quickly + source_of(arm) + EXPORTS, "c"), 0.0)
+    return PointwiseLibrary(build_or_none(quickly + source_of(arm) + EXPORTS, "c"))
 
 
 def reachable(arm: Arm, n: int, seed: int = 0, orientation: Orientation = Orientation.FULL) -> HandTargets:

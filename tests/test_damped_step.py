@@ -12,8 +12,9 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from armik_sym.arm.catalog import human
+from armik_sym.motion.rotation_vector import rotation_vector
 from armik_sym.pointwise.damped.bounded_step import bounded_step
-from armik_sym.pointwise.damped.pose_residual import printed_rotation_residual, rotation_vector
+from armik_sym.pointwise.damped.pose_residual import printed_rotation_residual
 
 DOF = 7
 HUMAN = human()

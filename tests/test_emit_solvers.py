@@ -37,7 +37,7 @@ _COMPILERS = {
     "sanitizers": [str(CC), "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"],
     "zig": [sys.executable, "-m", "ziglang", "cc", "-fno-sanitize=undefined"],
 }
-NUMPY = PointwiseLibrary(None, 0.0)
+NUMPY = PointwiseLibrary(None)
 
 
 def _run(command, folder: Path) -> subprocess.CompletedProcess[str]:

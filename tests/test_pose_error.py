@@ -12,8 +12,9 @@ from smooth_motions import path_of
 
 from armik_sym.arm.product_of_transforms import hand_pose
 from armik_sym.compiled.kinematics import compile
+from armik_sym.motion.rotation_vector import rotation_vector
 from armik_sym.symbolic import Orientation
-from armik_sym.trajectory.pose_error import SampleError, rotation_vector
+from armik_sym.trajectory.pose_error import SampleError
 
 ARM = ARMS["human"]
 SEEDS = st.integers(0, 10**6)

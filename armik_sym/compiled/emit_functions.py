@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from armik_sym.arm.model import Arm
 from armik_sym.compiled.c_constant import Precision
 from armik_sym.compiled.c_source import c_function, signature_of
-from armik_sym.compiled.kinematic_functions import row_by_row
 from armik_sym.symbolic import express
 from armik_sym.symbolic.arm_expressions import LengthMode
+from armik_sym.symbolic.row_order import row_by_row
 
 Array = NDArray[np.float64]
 

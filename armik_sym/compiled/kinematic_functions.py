@@ -5,6 +5,8 @@ from __future__ import annotations
 import casadi as ca
 
 from armik_sym.symbolic import ArmExpressions
+from armik_sym.symbolic.dense_function import dense_function
+from armik_sym.symbolic.row_order import row_by_row
 
 
 def kinematic_functions(arm: ArmExpressions) -> dict[str, ca.Function]:
@@ -29,24 +31,5 @@ def kinematic_functions(arm: ArmExpressions) -> dict[str, ca.Function]:
         "jacobian": jacobian,
         "pose_and_jacobian": ca.vertcat(arm.position, rotation, jacobian),
     }
-    return {name: _function(arm, name, value) for name, value in quantities.items()}
-
-
-def row_by_row(matrix: ca.SX) -> ca.SX:
-    """Entries of a matrix row by row, the order of NumPy and C.
-
-    Args:
-        matrix: SX of shape (m, n).
-
-    Returns:
-        SX of shape (m·n, 1).
-
-    Source:
-        None (CasADi stores column by column).
-    """
-    return ca.vec(ca.densify(matrix).T)
-
-
-def _function(arm: ArmExpressions, name: str, value: ca.SX) -> ca.Function:
-    out = ca.cse(ca.densify(value))
-    return ca.Function(name, [arm.q, arm.lengths], [out], ["q", "lengths"], ["out"])
+    inputs = {"q": arm.q, "lengths": arm.lengths}
+    return {name: dense_function(name, inputs, value) for name, value in quantities.items()}

@@ -13,6 +13,7 @@ from armik_sym.elbow.checks import checked_angles
 from armik_sym.elbow.nearest import along_path, nearest_of_two
 from armik_sym.errors import ShapeError
 from armik_sym.symbolic import elbow_direction
+from armik_sym.symbolic.dense_function import evaluate_rows
 
 Array = NDArray[np.float64]
 
@@ -133,10 +134,8 @@ def _convert(
 
 def _principal(name: str, rows: Array, first_if_singular: float | Array) -> tuple[Array, Array]:
     """The principal branch and the sine (cosine) that vanishes at the singularity."""
-    if not len(rows):  # CasADi maps nothing to one row
-        return np.empty((0, 3)), np.empty(0)
     first = np.broadcast_to(np.asarray(first_if_singular, dtype=np.float64), (len(rows),))
-    out = np.asarray(_function(name)(rows.T, first[np.newaxis])).T
+    out = evaluate_rows(_function(name), rows, first[:, np.newaxis])
     return np.ascontiguousarray(out[:, :3]), out[:, 3]
 
 

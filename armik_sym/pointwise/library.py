@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
@@ -14,12 +13,13 @@ from armik_sym.arm.model import Arm
 from armik_sym.compiled.backend import Backend, build_or_none
 from armik_sym.compiled.build import Library
 from armik_sym.compiled.c_source import c_function
-from armik_sym.compiled.kinematic_functions import row_by_row
 from armik_sym.compiled.lanes import fits_lanes, lanes_function, lanes_header
 from armik_sym.compiled.library_source import PRELUDE
 from armik_sym.compiled.structure import ArmStructure
-from armik_sym.symbolic import ArmExpressions, express
+from armik_sym.symbolic import express
 from armik_sym.symbolic.alfaiz_closed_form import closed_form_fits, search_functions
+from armik_sym.symbolic.dense_function import dense_function
+from armik_sym.symbolic.row_order import row_by_row
 
 # The hand-written C, in the order in which one file needs the other.
 LOOPS = (
@@ -36,11 +36,9 @@ class PointwiseLibrary:
 
     Attributes:
         library: The loaded library, or None where NumPy has to serve.
-        build_time: Seconds spent on expressions and source text in this process.
     """
 
     library: Library | None
-    build_time: float
 
     @property
     def compile_time(self) -> float:
@@ -130,12 +128,8 @@ def pointwise_functions(arm: Arm) -> dict[str, ca.Function]:
         "pose": pose,
         "pose_and_jacobian": ca.vertcat(pose, row_by_row(symbols.jacobian)),
     }
-    return {name: _function(symbols, name, value) for name, value in quantities.items()}
-
-
-def _function(symbols: ArmExpressions, name: str, value: ca.SX) -> ca.Function:
-    out = ca.cse(ca.densify(value))
-    return ca.Function(name, [symbols.q, symbols.lengths], [out], ["q", "lengths"], ["out"])
+    inputs = {"q": symbols.q, "lengths": symbols.lengths}
+    return {name: dense_function(name, inputs, value) for name, value in quantities.items()}
 
 
 def library_source(arm: Arm) -> str:
@@ -158,7 +152,4 @@ def library_source(arm: Arm) -> str:
 
 @functools.lru_cache(maxsize=64)
 def _library(structure: ArmStructure, backend: Backend) -> PointwiseLibrary:
-    started = time.perf_counter()
-    source = library_source(structure.arm)
-    build_time = time.perf_counter() - started
-    return PointwiseLibrary(build_or_none(source, backend), build_time)
+    return PointwiseLibrary(build_or_none(library_source(structure.arm), backend))

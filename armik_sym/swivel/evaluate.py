@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.swivel.expressions import swivel_functions
+from armik_sym.symbolic.dense_function import evaluate_rows
 
 Array = NDArray[np.float64]
 
@@ -23,7 +24,4 @@ def evaluate(name: str, *inputs: ArrayLike) -> Array:
     Source:
         None (packaging).
     """
-    rows = [np.atleast_2d(np.asarray(value, dtype=np.float64)) for value in inputs]
-    if 0 in (len(value) for value in rows):
-        return np.zeros((0, swivel_functions()[name].size1_out(0)))
-    return np.asarray(swivel_functions()[name](*[value.T for value in rows]), dtype=np.float64).T
+    return evaluate_rows(swivel_functions()[name], *inputs)

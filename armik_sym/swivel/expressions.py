@@ -19,6 +19,8 @@ import functools
 import casadi as ca
 
 from armik_sym.swivel import geometry as row
+from armik_sym.symbolic.dense_function import dense_function
+from armik_sym.symbolic.row_order import row_by_row, row_major
 
 TINY = 1e-30
 POLE = 1e-26  # sin²b below which the outer two of three axes are parallel
@@ -150,7 +152,7 @@ def swivel_curve(pose: ca.SX, geometry: ca.SX, side: ca.SX, reference: ca.SX) ->
         (R @ _matrix(geometry, row.AFTER_WRIST)).T @ world,
         _matrix(geometry, row.BEFORE_WRIST) @ turn_back @ body,
     )
-    parts = [_flat(part) for part in shoulder] + [_flat(part.T) for part in wrist]
+    parts = [row_by_row(part) for part in shoulder] + [row_by_row(part.T) for part in wrist]
     q4 = theta - _part(geometry, row.ELBOW_ZERO)
     return ca.vertcat(q4, *parts, ca.fabs(distance - reached), off_line, sine_reference)
 
@@ -229,38 +231,23 @@ def swivel_functions() -> dict[str, ca.Function]:
     return {
         function.name(): function
         for function in (
-            _function(
+            dense_function(
                 "swivel_curve",
                 {"pose": pose, "geometry": geometry, "side": side, "reference": reference},
                 swivel_curve(pose, geometry, side, reference),
             ),
-            _function(
+            dense_function(
                 "swivel_sides",
                 {"Q": Q, "side": side, "pole": pole},
                 sines_and_cosines(row_major(Q), side, pole),
             ),
-            _function(
+            dense_function(
                 "swivel_of",
                 {"q": q, "middle": middle, "geometry": geometry, "reference": reference},
                 swivel_of(q, middle, geometry, reference),
             ),
         )
     }
-
-
-def row_major(entries: ca.SX) -> ca.SX:
-    """A 3 x 3 matrix from its entries row by row.
-
-    Args:
-        entries: SX of shape (9, 1).
-
-    Returns:
-        SX of shape (3, 3).
-
-    Source:
-        None (CasADi stores column by column).
-    """
-    return ca.reshape(entries, 3, 3).T
 
 
 def _curve(world: ca.SX, body: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
@@ -277,10 +264,6 @@ def _matrix(geometry: ca.SX, place: tuple[int, int]) -> ca.SX:
     return row_major(_part(geometry, place))
 
 
-def _flat(matrix: ca.SX) -> ca.SX:
-    return ca.vec(ca.densify(matrix).T)
-
-
 def _about_z(angle: ca.SX) -> ca.SX:
     c, s = ca.cos(angle), ca.sin(angle)
     return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
@@ -289,7 +272,3 @@ def _about_z(angle: ca.SX) -> ca.SX:
 def _about_y(angle: ca.SX) -> ca.SX:
     c, s = ca.cos(angle), ca.sin(angle)
     return ca.vertcat(ca.horzcat(c, 0, s), ca.horzcat(0, 1, 0), ca.horzcat(-s, 0, c))
-
-
-def _function(name: str, inputs: dict[str, ca.SX], value: ca.SX) -> ca.Function:
-    return ca.Function(name, list(inputs.values()), [ca.cse(ca.densify(value))], list(inputs), ["out"])

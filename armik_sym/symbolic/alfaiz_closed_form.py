@@ -23,7 +23,9 @@ from armik_sym.arm.catalog import alfaiz
 from armik_sym.arm.chain import DHChain
 from armik_sym.arm.model import Arm
 from armik_sym.symbolic.arm_expressions import ArmExpressions, express
+from armik_sym.symbolic.dense_function import dense_function
 from armik_sym.symbolic.link_transform import link_transform
+from armik_sym.symbolic.row_order import row_by_row, row_major
 
 _HALF_TURN = ca.DM([[1, 0, 0], [0, -1, 0], [0, 0, -1]])  # Rx(π)
 _TINY = 1e-30
@@ -237,7 +239,7 @@ def swivel_curve(position: ca.SX, rotation: ca.SX, lengths: ca.SX, side: ca.SX) 
     turned = (fixed @ R, R - fixed @ R, ca.skew(n) @ R)
     to_shoulder = _rotation_of_row(3, arm.angle).T @ _HALF_TURN
     parts = [part @ to_shoulder for part in turned] + [part.T @ rotation for part in turned]
-    return ca.vertcat(arm.angle, *[ca.vec(ca.densify(part).T) for part in parts])
+    return ca.vertcat(arm.angle, *[row_by_row(part) for part in parts])
 
 
 def search_functions() -> dict[str, ca.Function]:
@@ -276,7 +278,7 @@ def search_functions() -> dict[str, ca.Function]:
         "alfaiz_quotients": ({"curve": curve, "turn": turn}, _quotients(curve, turn)),
         "alfaiz_shoulder": ({"q": model.q}, ca.vec(S.T)),
     }
-    return {name: function(name, *part) for name, part in parts.items()}
+    return {name: dense_function(name, *part) for name, part in parts.items()}
 
 
 def posture_function() -> ca.Function:
@@ -295,7 +297,7 @@ def posture_function() -> ca.Function:
     }
     pose, lengths, phi, sides = inputs.values()
     value = ca.vertcat(*posture(pose[:3], row_major(pose[3:]), lengths, phi, sides))
-    return function("alfaiz_posture", inputs, value)
+    return dense_function("alfaiz_posture", inputs, value)
 
 
 def upper_rotation(first: ca.SX, elbow_angle: ca.SX) -> ca.SX:
@@ -314,38 +316,6 @@ def upper_rotation(first: ca.SX, elbow_angle: ca.SX) -> ca.SX:
     model = _model()
     q = ca.vertcat(first, elbow_angle, ca.SX.zeros(3))
     return ca.substitute(model.frames[4][:3, :3], model.q, q)
-
-
-def row_major(entries: ca.SX) -> ca.SX:
-    """A 3 x 3 matrix from its entries row by row.
-
-    Args:
-        entries: SX of shape (9, 1).
-
-    Returns:
-        SX of shape (3, 3).
-
-    Source:
-        None (CasADi stores column by column).
-    """
-    return ca.reshape(entries, 3, 3).T
-
-
-def function(name: str, inputs: dict[str, ca.SX], value: ca.SX) -> ca.Function:
-    """One dense output, common subexpressions shared.
-
-    Args:
-        name: Name of the function.
-        inputs: Symbols by name.
-        value: What it returns.
-
-    Returns:
-        The Function.
-
-    Source:
-        None (packaging).
-    """
-    return ca.Function(name, list(inputs.values()), [ca.cse(ca.densify(value))], list(inputs), ["out"])
 
 
 @functools.cache

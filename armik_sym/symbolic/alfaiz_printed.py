@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import casadi as ca
 
-from armik_sym.symbolic.alfaiz_closed_form import function, row_major, upper_rotation
+from armik_sym.symbolic.alfaiz_closed_form import upper_rotation
+from armik_sym.symbolic.dense_function import dense_function
+from armik_sym.symbolic.row_order import row_major
 
 
 def printed_posture(position: ca.SX, rotation: ca.SX, lengths: ca.SX, phi: ca.SX) -> ca.SX:
@@ -59,7 +61,7 @@ def printed_function() -> ca.Function:
     """
     pose, lengths, phi = ca.SX.sym("pose", 12), ca.SX.sym("lengths", 2), ca.SX.sym("phi")
     q = printed_posture(pose[:3], row_major(pose[3:]), lengths, phi)
-    return function("alfaiz_printed", {"pose": pose, "lengths": lengths, "phi": phi}, q)
+    return dense_function("alfaiz_printed", {"pose": pose, "lengths": lengths, "phi": phi}, q)
 
 
 def _arc_tangent(numerator: ca.SX, denominator: ca.SX) -> ca.SX:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from armik_sym.arm.model import Arm
 from armik_sym.motion.hand_path import HandPath
+from armik_sym.motion.rotation_vector import rotation_vector
 from armik_sym.symbolic import Orientation
 
 Array = NDArray[np.float64]
@@ -61,32 +62,6 @@ class SampleError:
             turn = _turn_between(fingers, wanted)
             rows = rows - np.outer(fingers, fingers @ rows)
         return np.concatenate([shift, self.radian_length * turn]), np.vstack([J[:3], rows])
-
-
-def rotation_vector(E: Array) -> Array:
-    """Axis times angle of a rotation: E = exp([w]×), |w| ≤ π.
-
-    Args:
-        E: Rotation matrix, shape (3, 3).
-
-    Returns:
-        Shape (3,), in [rad].
-
-    Source:
-        Siciliano et al., Robotics (2009), eq. 2.27-2.28.
-    """
-    sine = 0.5 * np.array([E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1]])
-    cosine = 0.5 * (E[0, 0] + E[1, 1] + E[2, 2] - 1.0)
-    length = math.sqrt(float(sine @ sine))
-    angle = math.atan2(length, cosine)
-    if length > 1e-6:
-        return np.asarray(sine * (angle / length))
-    if cosine > 0:
-        return sine
-    # Half a turn: the axis is the largest column of (E + I)/2 = axis·axisᵀ.
-    square = 0.5 * (E + np.eye(3))
-    column = square[:, int(np.argmax(np.diag(square)))]
-    return np.asarray(math.pi * column / np.linalg.norm(column))
 
 
 def _turn_between(start: Array, end: Array) -> Array:

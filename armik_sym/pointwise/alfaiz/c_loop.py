@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.arm.model import Arm
 from armik_sym.compiled.build import Library
+from armik_sym.pointwise.address import address
 from armik_sym.pointwise.alfaiz.found import Found
 from armik_sym.pointwise.alfaiz.options import AlfaizOptions
 
@@ -66,11 +66,7 @@ class CompiledLoop:
         self._function(
             ctypes.byref(self._settings),
             ctypes.c_ssize_t(part.stop - part.start),
-            *(_address(array) for array in (targets[part], *self._fixed, first)),
+            *(address(array) for array in (targets[part], *self._fixed, first)),
             ctypes.c_int(chain),
-            *(_address(array[part]) for array in (found.q, found.reached, found.evaluations)),
+            *(address(array[part]) for array in (found.q, found.reached, found.evaluations)),
         )
-
-
-def _address(array: NDArray[Any] | None) -> ctypes.c_void_p:
-    return ctypes.c_void_p(None if array is None else array.ctypes.data)

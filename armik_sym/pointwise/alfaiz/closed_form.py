@@ -12,6 +12,7 @@ from armik_sym.arm.model import Arm
 from armik_sym.errors import OptionError
 from armik_sym.symbolic.alfaiz_closed_form import closed_form_fits, posture_function, search_functions
 from armik_sym.symbolic.alfaiz_printed import printed_function
+from armik_sym.symbolic.dense_function import evaluate_rows
 
 Array = NDArray[np.float64]
 
@@ -63,8 +64,7 @@ def evaluate(name: str, *inputs: ArrayLike) -> Array:
     Source:
         None (packaging).
     """
-    columns = [np.atleast_2d(np.asarray(value, dtype=np.float64)).T for value in inputs]
-    return np.asarray(_functions()[name](*columns)).T
+    return evaluate_rows(_functions()[name], *inputs)
 
 
 @functools.cache

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from armik_sym.arm.model import Arm
 from armik_sym.compiled.build import Library
+from armik_sym.pointwise.address import address
 from armik_sym.pointwise.damped.found import Found
 from armik_sym.pointwise.damped.settings import DampedSettings
 
@@ -54,11 +55,7 @@ class CompiledLoop:
             ctypes.c_ssize_t(part.stop - part.start),
             ctypes.c_uint64(part.start),
             self._seed,
-            *(_address(array) for array in (targets[part], *self._fixed, first)),
+            *(address(array) for array in (targets[part], *self._fixed, first)),
             ctypes.c_int(chain),
-            *(_address(a[part]) for a in (found.q, found.error, found.iterations, found.evaluations)),
+            *(address(a[part]) for a in (found.q, found.error, found.iterations, found.evaluations)),
         )
-
-
-def _address(array: NDArray[np.float64] | NDArray[np.int64]) -> ctypes.c_void_p:
-    return ctypes.c_void_p(array.ctypes.data)
