@@ -54,9 +54,7 @@ def mark_missed(axes: Axes, solution: Solution) -> None:
     missed = solution.time[~solution.reached]
     foot = np.full(len(missed), 0.03)
     axes.plot(missed, foot, "|", color=MEASURED, markersize=7, transform=axes.get_xaxis_transform())
-    axes.text(
-        0.98, 0.06, "| not reached", color=MEASURED, ha="right", fontsize=TEXT_SIZE, transform=axes.transAxes
-    )
+    axes.text(0.02, 0.9, "| not reached", color=MEASURED, fontsize=TEXT_SIZE, transform=axes.transAxes)
 
 
 def draw_error(axes: Axes, time: Array, error: Array, words: PanelWords) -> None:
