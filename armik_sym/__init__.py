@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from armik_sym.progress import Progress
     from armik_sym.solution import Solution
     from armik_sym.solving import methods, solve
+    from armik_sym.swivel.map import SwivelMap, swivel_map
 
 __all__ = [
     "Arm",
@@ -44,6 +45,7 @@ __all__ = [
     "Progress",
     "RangeOfMotion",
     "Solution",
+    "SwivelMap",
     "__version__",
     "catalog",
     "compile",
@@ -55,6 +57,7 @@ __all__ = [
     "read_path",
     "segment_lengths",
     "solve",
+    "swivel_map",
     "symbolic",
     "task_names",
     "write_path",
@@ -74,6 +77,7 @@ _HOMES = {
     "armik_sym.progress": ("Progress",),
     "armik_sym.solution": ("Solution",),
     "armik_sym.solving": ("methods", "solve"),
+    "armik_sym.swivel.map": ("SwivelMap", "swivel_map"),
 }  # fmt: skip
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -18,26 +18,28 @@ ROOMS = {
     "compiled/": (0.0, 2.0, "C from expressions:\nemit, compile, cache, load"),
     "solution/": (1.0, 2.0, "angles that judge themselves:\nerrors, margins, verdict, files"),
     "pointwise/": (0.0, 3.0, "one pose after another:\nPro-ISADE, LM, Al-Faiz"),
-    "trajectory/": (0.55, 3.0, "the whole path in one call:\nfirst guess, IPOPT problem"),
-    "solving.py": (0.25, 4.0, "solve(arm, path, method)"),
-    "report/": (1.0, 4.0, "figures"),
-    "cli/": (0.6, 5.0, "the command armik"),
+    "swivel/": (0.52, 3.0, "closed form, exact intervals,\nthe swivel map"),
+    "trajectory/": (0.52, 4.0, "the whole path in one call:\nfirst guess, IPOPT problem"),
+    "solving.py": (0.1, 5.0, "solve(arm, path, method)"),
+    "report/": (1.03, 4.0, "figures"),
+    "cli/": (0.6, 6.0, "the command armik"),
 }
 ARROWS = [
     ("arm/", "symbolic/"), ("symbolic/", "compiled/"), ("symbolic/", "elbow/"), ("arm/", "motion/"),
-    ("motion/", "solution/"), ("compiled/", "trajectory/"), ("compiled/", "pointwise/"),
-    ("solution/", "trajectory/"), ("solution/", "pointwise/"), ("trajectory/", "solving.py"),
-    ("pointwise/", "solving.py"), ("solution/", "report/"), ("solving.py", "cli/"), ("report/", "cli/"),
+    ("motion/", "solution/"), ("compiled/", "swivel/"), ("compiled/", "pointwise/"),
+    ("swivel/", "trajectory/"), ("swivel/", "report/"), ("solution/", "trajectory/"),
+    ("solution/", "pointwise/"), ("trajectory/", "solving.py"), ("pointwise/", "solving.py"),
+    ("solution/", "report/"), ("solving.py", "cli/"), ("report/", "cli/"),
 ]  # fmt: skip
 WIDTH, HEIGHT = 0.44, 0.62
 
 
 def architecture() -> Figure:
     """The folders and who uses whom."""
-    figure = Figure(figsize=(10, 7.2), layout="constrained")
+    figure = Figure(figsize=(10, 8.4), layout="constrained")
     axes = figure.add_subplot()
     axes.set_axis_off()
-    axes.set(xlim=(-0.82, 1.28), ylim=(-0.45, 5.5))
+    axes.set(xlim=(-0.82, 1.28), ylim=(-0.45, 6.45))
     for name, (x, y, text) in ROOMS.items():
         box = FancyBboxPatch(
             (x - WIDTH / 2, y - HEIGHT / 2), WIDTH, HEIGHT,
@@ -63,11 +65,99 @@ def playing_ball() -> Figure:
     return solution_figure(solution, measured=task.measured)
 
 
+def swivel_map() -> Figure:
+    """The swivel map of the ball catch (synthetic motion), solved in one piece and by Pro-ISADE."""
+    import armik_sym as ak
+
+    arm, task = ak.catalog.ehmcs(), ak.load_task("catching_ball")
+    start = task.measured.q[0]
+    solution = ak.solve(arm, task.path, start=start)
+    others = {"Pro-ISADE": ak.solve(arm, task.path, "pro-isade", start=start), "measured": task.measured}
+    return ak.swivel_map(arm, task.path).plot(solution, compare=others, title=task.title)
+
+
+def swivel_map_patient() -> Figure:
+    """A cup lifted with a stiff elbow (synthetic motion): samples without any posture."""
+    import armik_sym as ak
+
+    task = ak.load_task("drinking_lift")
+    patient = ak.load_arm(Path(__file__).resolve().parents[1] / "data" / "patients" / "stroke_elbow.toml")
+    title = f"{task.title}, elbow of a patient"
+    return ak.swivel_map(patient, task.path).plot(compare={"without limits": task.measured}, title=title)
+
+
+def swivel_circle() -> Figure:
+    """One sample of a map in space: the elbow on its circle, and the part of it that limits allow."""
+    import numpy as np
+
+    import armik_sym as ak
+    from armik_sym.report.stick_figure import stick_figure
+
+    arm, task = ak.catalog.ehmcs(), ak.load_task("drinking_reach")
+    one, branch, k = ak.swivel_map(arm, task.path), 2, 70
+    line = np.array(task.path.position[k] - one.spherical.shoulder.centre)
+    line /= np.linalg.norm(line)
+    side = np.cross(line, arm.up)
+    look = 0.75 * line - 0.66 * side / np.linalg.norm(side)
+    look /= np.linalg.norm(look)
+    up = arm.up - look * (look @ arm.up)
+    up /= np.linalg.norm(up)
+    view = np.column_stack([np.cross(look, up), up])
+
+    def drawn(psi: float) -> np.ndarray:
+        return stick_figure(arm, one.postures(psi, branch)[[k]]).points[0, :3] @ view
+
+    figure = Figure(figsize=(7.2, 4.2), layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_axis_off()
+    axes.set_aspect("equal")
+    circle = np.array([drawn(psi)[1] for psi in np.linspace(0, 2 * np.pi, 181)])
+    axes.plot(*circle.T, color="#999999", linewidth=1, linestyle="--")
+    for start, end in one.intervals.of(k, branch):
+        arc = np.array([drawn(psi)[1] for psi in np.linspace(start, end, 91)])
+        axes.plot(*arc.T, color="#97BEDA", linewidth=7, solid_capstyle="butt", zorder=0)
+    for psi, colour, width in ((0.0, "#AAAAAA", 2.5), (np.deg2rad(55), "#0072B2", 4.5)):
+        axes.plot(*drawn(psi).T, color=colour, linewidth=width, marker="o", markersize=7, zorder=3)
+    shoulder, elbow, wrist = drawn(np.deg2rad(55))
+    axes.plot(*np.array([shoulder, wrist]).T, color="#1A1A1A", linewidth=1, linestyle=":")
+    centre = 0.5 * (drawn(0.0)[1] + drawn(np.pi)[1])
+    for psi, name in ((0.0, "g"), (0.5 * np.pi, "u")):
+        tip = centre + 0.62 * (drawn(psi)[1] - centre)
+        axes.annotate("", tip, centre, arrowprops={"arrowstyle": "-|>", "color": "#1A1A1A"})
+        axes.annotate(
+            name,
+            tip,
+            xytext=(-4, -15) if name == "g" else (-12, 4),
+            textcoords="offset points",
+            style="italic",
+            size=11,
+        )
+    along = centre + 0.35 * (wrist - shoulder)
+    axes.annotate("", along, centre, arrowprops={"arrowstyle": "-|>", "color": "#1A1A1A"})
+    axes.annotate("ŵ", along, xytext=(4, 5), textcoords="offset points", style="italic", size=11)
+    turn = centre + 0.4 * np.array([drawn(psi)[1] - centre for psi in np.linspace(0, np.deg2rad(55), 30)])
+    axes.plot(*turn.T, color="#D55E00", linewidth=1.8)
+    axes.annotate("ψ", turn[15], xytext=(-15, -4), textcoords="offset points", color="#D55E00", size=13)
+    for point, name, aside in (
+        (shoulder, "shoulder S", (8, 6)),
+        (elbow, "elbow", (-44, -4)),
+        (wrist, "wrist W", (8, -4)),
+    ):
+        axes.annotate(name, point, xytext=aside, textcoords="offset points", size=11)
+    axes.annotate(
+        "elbow at ψ = 0", drawn(0.0)[1], xytext=(-102, -10), textcoords="offset points", color="#777777"
+    )
+    return figure
+
+
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
     architecture().savefig(IMAGES / "architecture.png", dpi=130)
     playing_ball().savefig(IMAGES / "playing_ball.png", dpi=110)
+    swivel_map().savefig(IMAGES / "swivel_map.png", dpi=130)
+    swivel_map_patient().savefig(IMAGES / "swivel_map_patient.png", dpi=110)
+    swivel_circle().savefig(IMAGES / "swivel_circle.png", dpi=110)
 
 
 if __name__ == "__main__":

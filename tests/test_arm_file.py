@@ -27,6 +27,8 @@ angle_unit = "deg"
 length_unit = "cm"
 description = "for the tests"
 pointing_axis = [0, 0, 1]
+up = [0, 1, 0]
+outward = [0, 0, -1]
 base = [[1, 0, 0, 10], [0, 0, -1, 20], [0, 1, 0, 30], [0, 0, 0, 1]]
 tool = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]
 
@@ -75,7 +77,8 @@ def test_the_arm_files_are_the_arms_of_the_catalogue(name):
     assert loaded.chain.length_names == built.chain.length_names
     assert loaded.chain.convention is built.chain.convention
     assert dict(loaded.lengths) == pytest.approx(dict(built.lengths), abs=1e-15)
-    np.testing.assert_array_equal(loaded.pointing_axis, built.pointing_axis)
+    for key in ("pointing_axis", "up", "outward"):
+        np.testing.assert_array_equal(getattr(loaded, key), getattr(built, key))
     np.testing.assert_allclose(loaded.rom.lower, built.rom.lower, rtol=0, atol=1e-15)
     np.testing.assert_allclose(loaded.rom.upper, built.rom.upper, rtol=0, atol=1e-15)
     q = np.random.default_rng(9).uniform(-np.pi, np.pi, (1000, built.dof))
@@ -105,6 +108,8 @@ def test_everything_in_a_file_arrives_in_si_units(tmp_path):
     np.testing.assert_allclose(arm.chain.base[:3, 3], [0.1, 0.2, 0.3])
     np.testing.assert_allclose(arm.chain.tool[:3, 3], [0, 0, 0.05])
     np.testing.assert_array_equal(arm.pointing_axis, [0, 0, 1])
+    np.testing.assert_array_equal(arm.up, [0, 1, 0])
+    np.testing.assert_array_equal(arm.outward, [0, 0, -1])
 
 
 def test_an_arm_without_a_name_is_named_after_its_file(tmp_path):
@@ -120,6 +125,7 @@ def test_what_is_left_out_is_zero_revolute_and_identity(tmp_path):
     assert link.joint is JointType.REVOLUTE
     np.testing.assert_array_equal(arm.chain.base, np.eye(4))
     np.testing.assert_array_equal(arm.pointing_axis, [1, 0, 0])
+    assert arm.up is arm.outward is None
     assert (arm.rom.lower[0], arm.rom.upper[0]) == (-1, 2)
 
 
@@ -180,10 +186,13 @@ def refused(tmp_path, text, *fragments, kind=ArmFileError):
         ("upper_arm = 30", "upper_arm = -30", ["'upper_arm' is -0.3", "0 to 5 m"]),
         ("upper_arm = 30", "upper_arm = true", ["lengths.upper_arm is True", "finite number"]),
         ("upper_arm = 30", "upper_arm = nan", ["lengths.upper_arm is nan", "finite number"]),
-        ("[0, 0, 1]\nbase", "[0, 1, 1]\nbase", ["pointing_axis is [0. 1. 1.]", "unit vector"]),
-        ("[0, 0, 1]\nbase", '"z"\nbase', ["pointing_axis is 'z'", "list of numbers"]),
-        ("[0, 0, 1]\nbase", "[false, false, true]\nbase", ["pointing_axis is False", "finite number"]),
-        ("[0, 0, 1]\nbase", "[0, [0], 1]\nbase", ["pointing_axis", "rows of different length"]),
+        ("[0, 0, 1]\nup", "[0, 1, 1]\nup", ["pointing_axis is [0. 1. 1.]", "unit vector"]),
+        ("[0, 0, 1]\nup", '"z"\nup', ["pointing_axis is 'z'", "list of numbers"]),
+        ("[0, 0, 1]\nup", "[false, false, true]\nup", ["pointing_axis is False", "finite number"]),
+        ("[0, 0, 1]\nup", "[0, [0], 1]\nup", ["pointing_axis", "rows of different length"]),
+        ("[0, 1, 0]\nout", "[0, 2, 0]\nout", ["up is [0. 2. 0.]", "unit vector"]),
+        ("[0, 0, -1]\n", '"left"\n', ["outward is 'left'", "list of numbers"]),
+        ("[0, 0, -1]\n", "[0, -1]\n", ["outward is [ 0. -1.]", "unit vector"]),
         ("[1, 0, 0, 10], ", "", ["base transform has shape (3, 4)", "4×4"]),
         ("[1, 0, 0, 10], ", "[1, 0, 0], ", ["base has rows of different length"]),
         ("[1, 0, 0, 10], ", "[2, 0, 0, 10], ", ["base transform is not rigid"]),

@@ -131,6 +131,30 @@ def test_options_of_solve_reach_the_solver_in_si_units(tmp_path, monkeypatch):
     }  # fmt: skip
 
 
+def test_set_reaches_the_options_of_the_trajectory(tmp_path):
+    """The elbow is drawn to where it was typed, and joints keep clear of their limits."""
+    angles = {}
+    for name, pairs in {
+        "plain": [],
+        "low": ["prefer=elbow_low", "clearance_weight=10"],
+        "vector": ["prefer=[-1, 0, 0]", "clearance_weight=10.0"],
+        "posture": ["prefer=[0, 0, 0, 1, 0, 0, 0]", "posture_weight=0.5"],
+    }.items():
+        typed = [word for pair in pairs for word in ("--set", pair)]
+        result = run("solve", TASK, "--backend", "vm", "--out", tmp_path / name, *typed)
+        assert result.exit_code == 0, result.stderr
+        with np.load(tmp_path / name / f"{TASK.stem}_solution.npz") as saved:
+            angles[name] = saved["q"]
+            settings = json.loads(str(saved["record"]))["settings"]
+        for pair in pairs:
+            key, value = pair.split("=")
+            assert settings[key] == (value if value.startswith("elbow") else json.loads(value))
+    arm = ak.catalog.ehmcs()
+    assert arm.rom.margin(angles["low"]).min() > arm.rom.margin(angles["plain"]).min() + np.deg2rad(2)
+    assert np.array_equal(angles["low"], angles["vector"])
+    assert np.abs(angles["posture"] - angles["plain"]).max() > 0.1
+
+
 def test_a_solution_that_is_not_what_was_asked_for_ends_with_1(tmp_path, monkeypatch):
     genuine = ak.solve
 

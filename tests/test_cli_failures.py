@@ -53,6 +53,12 @@ def failure(*arguments):
         ([TASK, "--start", "0,0,0,170,0,0,0"], ["elbow_flexion", "170", "145"]),
         ([TASK, "--max-speed", "0"], ["--max-speed is 0", "positive"]),
         ([TASK, "--max-acceleration", "-5"], ["--max-acceleration is -5", "positive"]),
+        ([TASK, "--set", "prefer=low"], ["prefer is 'low'", "elbow_low, elbow_high, elbow_out, elbow_in"]),
+        ([TASK, "--set", "prefer=elbow_out", "--arm", "alfaiz"], ["does not say where outward is"]),
+        ([TASK, "--set", "prefer=[0,0,0,90,0,0,0]"], ["elbow_flexion", "90 rad", "angles are in radians"]),
+        ([TASK, "--set", "clearance_weight=much"], ["clearance_weight is 'much'", "finite number"]),
+        ([TASK, "--set", "clearance=[0.1, 0.2]"], ["clearance has 2 numbers", "7 joints"]),
+        ([TASK, "--set", "clearence=0.1"], ["'clearence'", "clearance, clearance_weight"]),
     ],
 )
 def test_solve_says_what_is_wrong(tmp_path, monkeypatch, arguments, words):

@@ -19,7 +19,7 @@ import armik_sym as ak
 REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = REPOSITORY / "armik_sym"
 SOURCES = sorted(PACKAGE.rglob("*.py"))
-EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-467]_*.py"))
+EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-46-8]_*.py"))
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -133,12 +133,12 @@ MAY_USE = {
     "symbolic": {"arm"},
     "elbow": {"arm", "symbolic"},
     "compiled": {"arm", "symbolic"},
-    "swivel": {"arm", "symbolic", "compiled"},
+    "swivel": {"arm", "symbolic", "compiled", "motion"},
     "motion": {"arm"},
     "solution": {"arm", "symbolic", "motion"},
     "pointwise": {"arm", "symbolic", "compiled", "motion", "solution"},
     "trajectory": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
-    "report": {"arm", "symbolic", "motion", "solution"},
+    "report": {"arm", "symbolic", "swivel", "motion", "solution"},
     "cli": {"arm", "symbolic", "compiled", "motion", "solution", "pointwise", "trajectory", "report"},
 }
 

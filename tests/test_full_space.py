@@ -25,10 +25,19 @@ N = 4
 CASES = list(itertools.product(Orientation, (False, True), (False, True)))
 
 
-def task_for(arm=ARM, orientation=Orientation.FULL, n=N, backend="vm", seed=0):
+# Wide, so that random postures are inside it; joints 3, 5 and 7 have less room than that.
+POSTURE = {
+    "clearance_weight": 3.0,
+    "clearance": 1.2,
+    "prefer": [0.6, -0.48, 0.64],
+    "prefer_weight": 5.0,
+}
+
+
+def task_for(arm=ARM, orientation=Orientation.FULL, n=N, backend="vm", seed=0, **further):
     path, _ = smooth_path(arm, n, seed)
     path = HandPath(uneven_time(n, seed), path.position, path.rotation)
-    options = TrajectoryOptions(acceleration_weight=0.05, posture_weight=0.02)
+    options = TrajectoryOptions(acceleration_weight=0.05, posture_weight=0.02, **further)
     limits = np.full(arm.dof, 3.0), np.full(arm.dof, 20.0)
     return Task(arm, path, orientation, options, *limits, None, compile_stage(arm, orientation, backend))
 
@@ -53,16 +62,25 @@ def evaluators(problem):
 
 @pytest.mark.parametrize(("orientation", "soft", "rates"), CASES)
 def test_derivatives_equal_finite_differences(orientation, soft, rates):
-    task = task_for(orientation=orientation)
+    check_derivatives(task_for(orientation=orientation), soft, rates, quadratic=True)
+
+
+@pytest.mark.parametrize(("soft", "rates"), list(itertools.product((False, True), repeat=2)))
+def test_derivatives_equal_finite_differences_with_clearance_and_elbow(soft, rates):
+    task = task_for(**POSTURE)
+    assert np.count_nonzero(ARM.rom.margin(random_point(task, False).reshape(N, -1)) < 0.5) > N
+    check_derivatives(task, soft, rates, quadratic=False)
+
+
+def check_derivatives(task, soft, rates, *, quadratic):
     problem = task.problem(soft=soft, rates=rates)
     f, g = evaluators(problem)
     x = random_point(task, soft)
 
     value, gradient = problem.gradient(x, [])
     assert float(value) == pytest.approx(f(x), rel=1e-14)
-    np.testing.assert_allclose(
-        np.asarray(gradient).ravel(), central(f, x, h=1e-2), rtol=1e-6, atol=1e-5
-    )  # quadratic
+    by_values = central(f, x, h=1e-2 if quadratic else 1e-5)
+    np.testing.assert_allclose(np.asarray(gradient).ravel(), by_values, rtol=1e-6, atol=1e-5)
 
     value, jacobian = problem.jacobian(x, [])
     np.testing.assert_allclose(np.asarray(value).ravel(), g(x), rtol=1e-14)
@@ -98,6 +116,32 @@ def test_the_objective_is_the_stated_integral(soft):
     assert f(x) == pytest.approx(problem.scale * expected, rel=1e-12)
 
 
+@pytest.mark.parametrize("soft", [False, True])
+def test_clearance_and_elbow_add_their_trapezoidal_integral_and_nothing_else(soft):
+    with_cost, without = task_for(**POSTURE), task_for(prefer=None)
+    x = random_point(without, soft)
+    q, time = x[: N * ARM.dof].reshape(N, -1), without.path.time
+    each = with_cost.posture_cost.evaluate(q)
+    expected = np.sum(np.diff(time) * (each[1:] + each[:-1]) / 2)
+    assert expected > 1
+    values = []
+    for task in (with_cost, without):
+        problem = task.problem(soft=soft, rates=False)
+        values.append(evaluators(problem)[0](x) / problem.scale)
+    assert values[0] - values[1] == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_preferred_posture_takes_the_place_of_mid_range():
+    wish = ARM.rom.lower + 0.3 * ARM.rom.width
+    task = task_for(prefer=wish)
+    x, o = random_point(task, False), task.options
+    weights = (o.speed_weight, o.acceleration_weight, o.posture_weight)
+    expected = objective(task.path.time, x.reshape(N, -1), wish, weights)
+    expected -= 0.5 * o.posture_weight * task.path.duration * wish @ wish
+    problem = task.problem(soft=False, rates=False)
+    assert evaluators(problem)[0](x) == pytest.approx(problem.scale * expected, rel=1e-12)
+
+
 @pytest.mark.parametrize("orientation", Orientation)
 def test_tracking_equations_vanish_where_the_hand_is_on_the_path_and_only_there(orientation):
     task = task_for(orientation=orientation)
@@ -131,11 +175,11 @@ def test_rate_rows_follow_the_tracking_equations_and_are_speed_then_acceleration
 
 
 @needs_cc
-@pytest.mark.parametrize("name", ["human", "custom_modified"])
-def test_compiled_problem_equals_the_virtual_machine(name):
+@pytest.mark.parametrize(("name", "further"), [("human", {}), ("human", POSTURE), ("custom_modified", {})])
+def test_compiled_problem_equals_the_virtual_machine(name, further):
     arm = ARMS[name]
     orientation = Orientation.FULL if arm.dof >= 6 else Orientation.POINTING
-    c, vm = (task_for(arm, orientation, backend=backend) for backend in ("c", "vm"))
+    c, vm = (task_for(arm, orientation, backend=backend, **further) for backend in ("c", "vm"))
     x = random_point(vm, True)
     for soft, rates in itertools.product((False, True), repeat=2):
         first, second = (task.problem(soft=soft, rates=rates) for task in (c, vm))
@@ -150,8 +194,9 @@ def test_compiled_problem_equals_the_virtual_machine(name):
             np.testing.assert_allclose(np.asarray(mine), np.asarray(other), rtol=1e-10, atol=1e-10)
 
 
-def test_curvature_is_block_diagonal_but_for_the_smoothness():
-    task = task_for(n=12)
+@pytest.mark.parametrize("further", [{}, POSTURE])
+def test_curvature_is_block_diagonal_but_for_the_smoothness(further):
+    task = task_for(n=12, **further)
     problem = task.problem(soft=False, rates=True)
     rows, columns = problem.hessian.sparsity_out(0).get_triplet()
     apart = np.abs(np.array(rows) // ARM.dof - np.array(columns) // ARM.dof)

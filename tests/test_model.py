@@ -134,6 +134,12 @@ def test_lengths_cannot_be_changed_in_place():
 def test_the_pointing_axis_must_be_a_unit_vector(axis):
     with pytest.raises(ArmModelError, match=r"'test_arm': pointing_axis is .*expected a unit vector \(3,\)"):
         arm(pointing_axis=axis)
+    for key in ("up", "outward"):
+        if axis is None:
+            assert getattr(arm(**{key: axis}), key) is None
+            continue
+        with pytest.raises(ArmModelError, match=rf"'test_arm': {key} is .*expected a unit vector \(3,\)"):
+            arm(**{key: axis})
 
 
 def test_the_pointing_axis_is_a_read_only_copy():
@@ -185,6 +191,8 @@ def test_an_arm_can_be_copied_and_sent_to_another_process(duplicate):
     np.testing.assert_array_equal(twin.chain.base, original.chain.base)
     np.testing.assert_array_equal(twin.rom.lower, original.rom.lower)
     np.testing.assert_array_equal(twin.rom.upper, original.rom.upper)
+    for key in ("pointing_axis", "up", "outward"):
+        np.testing.assert_array_equal(getattr(twin, key), getattr(original, key))
 
 
 def test_limits_in_degrees_are_recognised_and_refused() -> None:

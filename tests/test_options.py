@@ -18,7 +18,7 @@ from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.options import TrajectoryOptions
 
 ARM = ARMS["human"]
-WEIGHTS = ("speed_weight", "acceleration_weight", "posture_weight")
+WEIGHTS = ("speed_weight", "acceleration_weight", "posture_weight", "clearance_weight", "prefer_weight")
 POSITIVE = ("position_sigma", "rotation_sigma", "max_iterations", "position_tolerance", "rotation_tolerance")
 
 
@@ -110,3 +110,46 @@ def test_wrong_number_of_limits(value):
 def test_limits_that_are_no_numbers(value):
     with pytest.raises(LimitError, match=r"max_speed is .*expected one number or 7"):
         rate_limit("max_speed", value, ARM)
+
+
+@pytest.mark.parametrize("value", [0, 0.1, 1, np.float32(0.2), [0.1] * 7, (0, 0.2), np.array([0.1, 0.0])])
+def test_clearances_that_make_sense(value):
+    assert TrajectoryOptions(clearance=value).clearance is value
+
+
+@pytest.mark.parametrize("value", ["10", None, True, [], [[0.1]], [0.1, "x"], [[1.0], [1.0, 2.0]], 1j, {}])
+def test_clearances_that_are_no_numbers(value):
+    with pytest.raises(
+        OptionError, match=r"clearance is .*expected one number ≥ 0 in \[rad\], or one per joint"
+    ):
+        TrajectoryOptions(clearance=value)
+
+
+@pytest.mark.parametrize("value", [-0.1, math.nan, math.inf, [0.1, -0.1], [0.1, math.nan]])
+def test_clearances_that_make_no_sense_name_the_joint(value):
+    where = "joint 2: " if np.ndim(value) else ""
+    with pytest.raises(OptionError, match=rf"clearance: {where}(-0\.1|nan|inf) makes no sense, expected one"):
+        TrajectoryOptions(clearance=value)
+
+
+@pytest.mark.parametrize(
+    "value", ["elbow_low", "elbow_high", "elbow_out", "elbow_in", None, [0, 0, 1], (1.0, 2.0)]
+)
+def test_preferences_that_make_sense(value):
+    assert TrajectoryOptions(prefer=value).prefer is value
+
+
+@pytest.mark.parametrize(
+    "value", ["low", "", 3, True, [True] * 3, [], [[0, 0, 1]], ["x"], [[1], [1, 2]], {}, 1j]
+)
+def test_preferences_that_make_no_sense_list_what_does(value):
+    with pytest.raises(
+        OptionError, match=r"prefer is .*: valid are elbow_low, .*, a posture \(dof,\) in \[rad\]"
+    ):
+        TrajectoryOptions(prefer=value)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_preferences_are_finite(value):
+    with pytest.raises(OptionError, match=rf"prefer: number 2 is {value}, expected finite"):
+        TrajectoryOptions(prefer=[0.0, value, 1.0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from spherical_arms import (
     pose_error,
     poses,
 )
+from swivel_backends import swivel_backend
 
 from armik_sym.arm import DHConvention, JointType
 from armik_sym.arm.catalog import alfaiz, ehmcs, human
@@ -34,6 +36,12 @@ from armik_sym.swivel.reference import transported_reference, wrist_directions
 from armik_sym.swivel.spherical_arm import recognise, why_not_spherical
 
 SPHERICAL = {name: recognise(arm) for name, arm in ARMS.items()}
+
+
+@pytest.fixture(autouse=True, scope="module", params=["auto", "vm"])
+def backend(request: pytest.FixtureRequest) -> Iterator[None]:
+    with swivel_backend(request.param):
+        yield
 
 
 @pytest.mark.parametrize("name", ARMS)

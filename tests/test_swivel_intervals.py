@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from spherical_arms import ARMS, OF_THE_PAPERS, poses
+from swivel_backends import swivel_backend
 
 from armik_sym.arm import Arm
 from armik_sym.arm.catalog import alfaiz, ehmcs, human
@@ -19,6 +22,12 @@ from armik_sym.swivel.spherical_arm import recognise
 
 TURN = 2 * np.pi
 SCAN = -np.pi + TURN * (np.arange(10_000) + 0.5) / 10_000
+
+
+@pytest.fixture(autouse=True, scope="module", params=["auto", "vm"])
+def backend(request: pytest.FixtureRequest) -> Iterator[None]:
+    with swivel_backend(request.param):
+        yield
 
 
 def narrowed(arm: Arm, rng: np.random.Generator) -> Arm:

@@ -12,6 +12,7 @@ from sample_arms import ARMS
 from smooth_motions import path_of, smooth_angles, uneven_time
 
 from armik_sym.compiled.stage_functions import compile_stage
+from armik_sym.errors import OptionError
 from armik_sym.solution.motion_rates import joint_acceleration, joint_speed
 from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.options import TrajectoryOptions
@@ -22,11 +23,11 @@ DOF = ARM.dof
 INF = np.full(DOF, np.inf)
 
 
-def task_for(n=5, first=None, speed=INF, acceleration=INF, orientation=Orientation.FULL):
+def task_for(n=5, first=None, speed=INF, acceleration=INF, orientation=Orientation.FULL, **options):
     q = smooth_angles(ARM, n, 1)
     path = path_of(ARM, q, uneven_time(n, 1))
     stage = compile_stage(ARM, orientation, "vm")
-    return Task(ARM, path, orientation, TrajectoryOptions(), speed, acceleration, first, stage), q
+    return Task(ARM, path, orientation, TrajectoryOptions(**options), speed, acceleration, first, stage), q
 
 
 LIMITS = (INF, np.full(DOF, 2.0), np.array([1, np.inf, 1, 1, np.inf, 1, 1.0]))
@@ -109,3 +110,64 @@ def test_joints_without_a_limit_have_unbounded_rows():
     rows = task.bounds(soft=False, rates=True).ubg[5 * 6 :].reshape(4, DOF)
     assert np.all(np.isinf(rows[:, [1, 4]]))
     assert np.all(np.isfinite(rows[:, [0, 2, 3, 5, 6]]))
+
+
+def test_postures_cost_nothing_unless_asked_for_and_the_problem_is_the_same():
+    plain, q = task_for()
+    zero, _ = task_for(clearance_weight=0, clearance=0.3, prefer="elbow_low", prefer_weight=0)
+    asked, _ = task_for(prefer="elbow_low")
+    assert plain.posture_cost is None
+    assert zero.posture_cost is None
+    assert asked.posture_cost is not None
+    assert asked.posture_cost.backend == asked.stage.backend
+    for soft in (False, True):
+        x = plain.start_vector(q, soft=soft)
+        problems = [task.problem(soft=soft, rates=False) for task in (plain, zero, asked)]
+        multipliers = np.random.default_rng(0).normal(size=problems[0].g.shape[0])
+        hessians = [np.asarray(problem.hessian(x, [], 1.0, multipliers)) for problem in problems]
+        gradients = [np.asarray(problem.gradient(x, [])[1]) for problem in problems]
+        assert np.array_equal(hessians[0], hessians[1])
+        assert np.array_equal(gradients[0], gradients[1])
+        assert np.abs(hessians[2] - hessians[0]).max() > 1e-3
+        assert np.abs(gradients[2] - gradients[0]).max() > 1e-3
+        operations = [problem.hessian.n_instructions() for problem in problems]
+        assert operations[0] == operations[1] < operations[2]
+
+
+def test_a_stiff_posture_cost_is_scaled_like_stiff_smoothness():
+    gentle, _ = task_for(clearance_weight=1.0)
+    stiff, q = task_for(clearance_weight=1e6, clearance=0.02)
+    assert (
+        gentle.problem(soft=False, rates=False).scale == task_for()[0].problem(soft=False, rates=False).scale
+    )
+    problem = stiff.problem(soft=False, rates=False)
+    x = np.tile(ARM.rom.lower, len(q))
+    hessian = np.asarray(problem.hessian(x, [], 1.0, np.zeros(problem.g.shape[0])))
+    assert problem.scale < 1e-2
+    assert 1e3 < np.abs(hessian).max() < 2e4
+
+
+def test_the_posture_preferred_is_mid_range_unless_given():
+    wish = ARM.rom.lower + 0.4 * ARM.rom.width
+    assert np.array_equal(task_for()[0].preferred_posture, ARM.rom.middle)
+    assert np.array_equal(task_for(prefer="elbow_in")[0].preferred_posture, ARM.rom.middle)
+    assert np.array_equal(task_for(prefer=[0, 1, 0])[0].preferred_posture, ARM.rom.middle)
+    assert np.array_equal(task_for(prefer=list(wish))[0].preferred_posture, wish)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"prefer": [0.1] * 6}, "prefer has 6 numbers, but arm 'ehmcs' has 7 joints: expected 7 angles"),
+        (
+            {"prefer": [0, 0, 0, 3, 0, 0, 0]},
+            r"elbow_flexion is 3 rad \(171.9°\), outside .* 0 to 2.53073 rad$",
+        ),
+        ({"prefer": [0, 0, 0, 90, 0, 0, 0]}, "elbow_flexion is 90 rad .*; angles are in radians"),
+        ({"prefer": [0, 0]}, "expected 7 angles in .*or 3 numbers, a direction"),
+        ({"clearance": [0.1, 0.2]}, "clearance has 2 numbers, but arm 'ehmcs' has 7 joints"),
+    ],
+)
+def test_preferences_that_do_not_fit_the_arm_are_refused_at_once(options, message):
+    with pytest.raises(OptionError, match=message):
+        task_for(**options)

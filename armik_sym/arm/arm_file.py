@@ -24,8 +24,8 @@ from armik_sym.arm.toml_reader import (
 from armik_sym.errors import ArmFileError, ArmModelError, UnknownNameError
 
 _ARM_KEYS = (
-    "name", "description", "convention", "angle_unit", "length_unit", "pointing_axis", "base", "tool",
-    "lengths", "joint",
+    "name", "description", "convention", "angle_unit", "length_unit", "pointing_axis", "up", "outward",
+    "base", "tool", "lengths", "joint",
 )  # fmt: skip
 _JOINT_KEYS = ("name", "type", "theta", "d", "a", "alpha", "sign", "range")
 
@@ -37,7 +37,7 @@ def arm_from_table(path: Path, table: dict[str, Any]) -> Arm:
         path: The file, for messages.
         table: Its parsed content: `name`, `convention`, `angle_unit`, `length_unit`, one `[[joint]]`
             per DH row with `name`, `type`, `theta`, `d`, `a`, `alpha`, `sign`, `range`, and
-            optionally `[lengths]`, `base`, `tool`, `pointing_axis`, `description`.
+            optionally `[lengths]`, `base`, `tool`, `pointing_axis`, `up`, `outward`, `description`.
 
     Returns:
         The arm, in SI units.
@@ -77,6 +77,8 @@ def arm_from_table(path: Path, table: dict[str, Any]) -> Arm:
             lengths=lengths,
             pointing_axis=_numbers(path, "pointing_axis", table.get("pointing_axis", [1.0, 0.0, 0.0])),
             description=str(table.get("description", "")),
+            up=_direction(path, "up", table),
+            outward=_direction(path, "outward", table),
         )
     except ArmFileError:
         raise
@@ -128,6 +130,10 @@ def _transform(path: Path, where: str, value: Any, metre: float) -> NDArray[np.f
     if T.shape == (4, 4):
         T[:3, 3] *= metre
     return T
+
+
+def _direction(path: Path, key: str, table: dict[str, Any]) -> NDArray[np.float64] | None:
+    return _numbers(path, key, table[key]) if key in table else None
 
 
 def _numbers(path: Path, where: str, value: Any) -> NDArray[np.float64]:

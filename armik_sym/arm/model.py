@@ -34,6 +34,10 @@ class Arm:
         lengths: Segment lengths by the names the chain uses, in [m].
         pointing_axis: Unit vector along the fingers in the hand frame, shape (3,).
         description: Where the numbers come from, in one sentence.
+        up: Unit vector in the base frame that points up while the person sits or stands, shape (3,); None if
+            that is not known.
+        outward: Unit vector in the base frame that points sideways, from the body to the side of the arm,
+            shape (3,); None if that is not known.
 
     Raises:
         ArmModelError: If the parts do not fit together.
@@ -49,6 +53,8 @@ class Arm:
     lengths: Mapping[str, float] = field(default_factory=dict)
     pointing_axis: NDArray[np.float64] = field(default_factory=lambda: np.array([1.0, 0.0, 0.0]))
     description: str = ""
+    up: NDArray[np.float64] | None = None
+    outward: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         check_identifier(self.name, "arm")
@@ -59,16 +65,24 @@ class Arm:
             )
         self._check_angles()
         self._check_lengths()
+        self._set_unit_vector("pointing_axis")
+        for key in ("up", "outward"):
+            if getattr(self, key) is not None:
+                self._set_unit_vector(key)
+
+    def _set_unit_vector(self, key: str) -> None:
+        """Replace a direction by a read-only copy, if it is a unit vector."""
+        value = getattr(self, key)
         try:
-            axis = np.array(self.pointing_axis, dtype=np.float64)
+            axis = np.array(value, dtype=np.float64)
         except (TypeError, ValueError):
             raise ArmModelError(
-                f"arm {self.name!r}: pointing_axis is {self.pointing_axis!r}, expected a unit vector (3,)"
+                f"arm {self.name!r}: {key} is {value!r}, expected a unit vector (3,)"
             ) from None
         if axis.shape != (3,) or not math.isclose(float(np.linalg.norm(axis)), 1.0, abs_tol=1e-9):
-            raise ArmModelError(f"arm {self.name!r}: pointing_axis is {axis}, expected a unit vector (3,)")
+            raise ArmModelError(f"arm {self.name!r}: {key} is {axis}, expected a unit vector (3,)")
         axis.flags.writeable = False
-        object.__setattr__(self, "pointing_axis", axis)
+        object.__setattr__(self, key, axis)
 
     def _check_angles(self) -> None:
         for link, lower, upper in zip(self.chain.moving_links, self.rom.lower, self.rom.upper, strict=True):
@@ -104,7 +118,9 @@ class Arm:
     def __reduce__(self) -> tuple[type[Arm], tuple[object, ...]]:
         # The read-only view of the lengths cannot be pickled; workers and copies need the arm to be.
         lengths = dict(self.lengths)
-        return Arm, (self.name, self.chain, self.rom, lengths, self.pointing_axis, self.description)
+        directions = (self.up, self.outward)
+        rest = (lengths, self.pointing_axis, self.description, *directions)
+        return Arm, (self.name, self.chain, self.rom, *rest)
 
     @property
     def dof(self) -> int:

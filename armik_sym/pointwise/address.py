@@ -1,23 +1,7 @@
-"""Arrays as C sees them."""
+"""Arrays as C sees them, under the name the pointwise methods use."""
 
 from __future__ import annotations
 
-import ctypes
-from typing import Any
+from armik_sym.compiled.address import address
 
-from numpy.typing import NDArray
-
-
-def address(array: NDArray[Any] | None) -> ctypes.c_void_p:
-    """Address of the first entry of an array, or NULL.
-
-    Args:
-        array: A C-contiguous array, or None.
-
-    Returns:
-        The pointer; valid as long as the array lives.
-
-    Source:
-        None (packaging).
-    """
-    return ctypes.c_void_p(None if array is None else array.ctypes.data)
+__all__ = ["address"]

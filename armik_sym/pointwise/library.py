@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import resources
 
 import casadi as ca
 
@@ -13,6 +12,7 @@ from armik_sym.arm.model import Arm
 from armik_sym.compiled.backend import Backend, build_or_none
 from armik_sym.compiled.build import Library
 from armik_sym.compiled.c_source import c_function
+from armik_sym.compiled.hand_written import loop_text
 from armik_sym.compiled.lanes import fits_lanes, lanes_function, lanes_header
 from armik_sym.compiled.library_source import PRELUDE
 from armik_sym.compiled.structure import ArmStructure
@@ -20,6 +20,11 @@ from armik_sym.symbolic import express
 from armik_sym.symbolic.alfaiz_closed_form import closed_form_fits, search_functions
 from armik_sym.symbolic.dense_function import dense_function
 from armik_sym.symbolic.row_order import row_by_row
+
+__all__ = [
+    "ALFAIZ_LOOPS", "LOOPS", "PointwiseLibrary", "library_source", "loop_text", "pointwise_functions",
+    "pointwise_library", "pointwise_source",
+]  # fmt: skip
 
 # The hand-written C, in the order in which one file needs the other.
 LOOPS = (
@@ -90,21 +95,6 @@ def pointwise_source(functions: Mapping[str, ca.Function], dof: int, loops: tupl
             parts.append(lanes_function(function, f"armik_{name}"))
             parts.append(f"#define HAS_LANES_OF_{name}\n")
     return "\n".join([*parts, *(loop_text(name) for name in loops)])
-
-
-def loop_text(name: str) -> str:
-    """One hand-written file that rides along.
-
-    Args:
-        name: File name.
-
-    Returns:
-        C source text.
-
-    Source:
-        None (packaging).
-    """
-    return (resources.files("armik_sym.compiled") / "c" / name).read_text(encoding="ascii")
 
 
 def pointwise_functions(arm: Arm) -> dict[str, ca.Function]:

@@ -7,16 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armik_sym.compiled.backend import Backend
+from armik_sym.errors import OptionError, ShapeError
+from armik_sym.swivel.c_intervals import compiled_blocking
 from armik_sym.swivel.closed_form import SwivelCurve
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.constants import ROUNDS, TIE, TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.joint_margins import elbow_margins, joint_margins
+from armik_sym.swivel.library import swivel_library
 from armik_sym.swivel.limit_cuts import limit_cuts
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_ROUNDS = 36
 _BLOCK = 1024
 _SHOULDER_AND_WRIST = (0, 1, 2, 4, 5, 6)
 
@@ -29,7 +32,8 @@ class Blocking:
         sample: Indices of the samples, shape (k,).
         branch: Branch of that posture, index into `FeasibleIntervals.branches`, shape (k,).
         psi: Its swivel angle, shape (k,), in [rad].
-        joint: The joint that misses its limit most, shape (k,).
+        joint: The joint that misses its limit most, shape (k,); often two miss theirs by the same, then the
+            first of shoulder, wrist and elbow.
         missing: By how much, shape (k,), in [rad]: if every joint had this much more, the sample would be
             feasible, and with less it would not; negative if it is feasible.
         shortfall: By how much the target is out of reach of the lengths, shape (k,), in [m].
@@ -44,7 +48,10 @@ class Blocking:
 
 
 def blocking(
-    intervals: FeasibleIntervals, samples: ArrayLike | None = None, branch: int | None = None
+    intervals: FeasibleIntervals,
+    samples: ArrayLike | None = None,
+    branch: int | None = None,
+    backend: Backend = "auto",
 ) -> Blocking:
     """Which joint blocks samples, and how much of its range of motion is missing.
 
@@ -54,17 +61,35 @@ def blocking(
         intervals: The feasible intervals.
         samples: Indices of samples; those without any interval (on this branch) if left out.
         branch: Only this branch; the best one if left out.
+        backend: "auto", "c" or "vm".
 
     Returns:
         One row per sample.
 
+    Raises:
+        OptionError: If there is no such branch.
+        ShapeError: If `samples` are no indices of samples.
+
     Source:
         None (this package).
     """
+    branches = len(intervals.branches)
+    if branch is not None and not 0 <= branch < branches:
+        raise OptionError(f"branch is {branch}, expected 0 to {branches - 1}")
     if samples is None:
         empty = intervals.empty.all(axis=1) if branch is None else intervals.empty[:, branch]
         samples = np.flatnonzero(empty)
     chosen = np.asarray(samples, dtype=np.int64)
+    n = len(intervals.empty)
+    if chosen.ndim != 1 or np.any((chosen < 0) | (chosen >= n)):
+        raise ShapeError(f"samples {chosen}: expected indices from 0 to {n - 1}, shape (k,)")
+    library = swivel_library(backend)
+    if library is not None:
+        return Blocking(chosen, *compiled_blocking(library, intervals.curves, chosen, branch))
+    return _in_numpy(intervals, chosen, branch)
+
+
+def _in_numpy(intervals: FeasibleIntervals, chosen: Indices, branch: int | None) -> Blocking:
     pairs = 2 ** len(intervals.curves[0].triples)
     sides = range(2) if branch is None else (branch // pairs,)
     answers = []
@@ -95,7 +120,7 @@ def _side(curve: SwivelCurve, offset: int, branch: int | None) -> Blocking:
     n = len(curve.elbow)
     wanted = None if branch is None else branch - offset
     least, most, best = np.full(n, -np.pi), np.full(n, np.inf), np.zeros(n)
-    for k in range(_ROUNDS):
+    for k in range(ROUNDS):
         extra = np.where(most < np.inf, 0.5 * (least + most), 0.0) if k else np.zeros(n)
         psi = _middles(limit_cuts(curve, extra))
         margin = _margins(curve, psi, wanted)[0]
@@ -128,7 +153,8 @@ def _margins(curve: SwivelCurve, psi: Array, wanted: int | None) -> tuple[Array,
     every = np.concatenate([taken.reshape(*psi.shape, -1), elbow], axis=-1)
     names = np.array([*_SHOULDER_AND_WRIST[: 3 * groups], 3])
     pair = 2 * side[..., 0] + side[..., 1] if groups == 2 else side[..., 0]
-    return every.min(axis=-1), names[every.argmin(axis=-1)], pair
+    least = every.min(axis=-1)
+    return least, names[(every <= least[..., None] + TIE).argmax(axis=-1)], pair
 
 
 def _pick(one: Blocking, other: Blocking, better: NDArray[np.bool_], rows: Indices) -> Blocking:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armik_sym.compiled.backend import Backend
 from armik_sym.errors import ShapeError
 from armik_sym.swivel.closed_form import checked_reference
 from armik_sym.swivel.evaluate import evaluate
@@ -40,7 +41,11 @@ class SwivelAndBranch:
 
 
 def swivel_of_postures(
-    spherical: SphericalArm, q: ArrayLike, reference: ArrayLike | None = None, position_only: bool = False
+    spherical: SphericalArm,
+    q: ArrayLike,
+    reference: ArrayLike | None = None,
+    position_only: bool = False,
+    backend: Backend = "auto",
 ) -> SwivelAndBranch:
     """Swivel angle and branches of postures.
 
@@ -50,6 +55,7 @@ def swivel_of_postures(
         reference: As in `pose_curve`.
         position_only: Whether the elbow turns about the line to the hand, as in `position_curve`, instead of
             the line to the wrist.
+        backend: "auto", "c" or "vm".
 
     Returns:
         Swivel angles and branches.
@@ -67,7 +73,7 @@ def swivel_of_postures(
     n = len(angles)
     geometry = position_geometry(spherical, angles[:, 4:]) if position_only else pose_geometry(spherical)
     r = checked_reference(spherical, reference, n)
-    values = evaluate("swivel_of", angles[:, :4], spherical.shoulder.offset, geometry, r)
+    values = evaluate("swivel_of", angles[:, :4], spherical.shoulder.offset, geometry, r, backend=backend)
     wrist = np.ones(n)
     if not position_only and spherical.wrist is not None:
         wrist = np.sin(angles[:, 5] + spherical.wrist.offset)

@@ -7,15 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armik_sym.compiled.backend import Backend
 from armik_sym.errors import OptionError, ShapeError
 from armik_sym.swivel.axis_triple import AxisTriple
+from armik_sym.swivel.c_postures import compiled_postures
 from armik_sym.swivel.equivalent_angles import nearest_in_range
 from armik_sym.swivel.evaluate import evaluate
 from armik_sym.swivel.geometry import pose_geometry, position_geometry
+from armik_sym.swivel.library import swivel_library
 from armik_sym.swivel.parallel_axes import first_at_pole
 from armik_sym.swivel.spherical_arm import SphericalArm
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 # Sine of an angle below which a posture counts as degenerate.
 DEGENERATE = 1e-7
@@ -91,7 +95,12 @@ class SwivelCurve:
         )
 
     def postures(
-        self, psi: ArrayLike, shoulder: ArrayLike = 1, wrist: ArrayLike = 1, wish: Array | None = None
+        self,
+        psi: ArrayLike,
+        shoulder: ArrayLike = 1,
+        wrist: ArrayLike = 1,
+        wish: Array | None = None,
+        backend: Backend = "auto",
     ) -> Postures:
         """All joint angles for one swivel angle and branch per sample.
 
@@ -102,15 +111,26 @@ class SwivelCurve:
             wish: Postures that decide among angles 2π apart, and where the outer two axes of shoulder or
                 wrist are parallel and share one angle freely, shape (n, dof), in [rad]; the middle of the
                 range of motion if left out.
+            backend: "auto", "c" or "vm".
 
         Returns:
             Postures; angles are inside the range of motion if a turn of 2π can bring them there.
+
+        Raises:
+            ShapeError: If `wish` has another shape.
 
         Source:
             Al-Faiz, eq. 13-47, corrected; Shimizu et al. (2008).
         """
         n, rom = len(self.elbow), self.spherical.arm.rom
         at = np.broadcast_to(np.asarray(psi, dtype=np.float64), (n,))
+        if wish is not None and wish.shape != (n, rom.dof):
+            raise ShapeError(f"wish {wish.shape}: expected ({n}, {rom.dof})")
+        library = swivel_library(backend)
+        if library is not None:
+            branch = np.broadcast_to(self._pair(shoulder, wrist), (n,))
+            q, sines = compiled_postures(library, (self, self), None, branch, at, wish)
+            return Postures(q, sines[:, 0], sines[:, 1])
         wished = np.tile(rom.middle, (n, 1)) if wish is None else wish
         q = np.zeros((n, rom.dof))
         q[:, 3] = self.elbow
@@ -122,11 +142,16 @@ class SwivelCurve:
             part = slice(triple.first, triple.first + 3)
             first = None if wish is None else wished[:, triple.first]
             q[:, part], sines[:, i] = triple_angles(
-                triple, Q[:, i], side, rom.lower[part], rom.upper[part], first
+                triple, Q[:, i], side, rom.lower[part], rom.upper[part], first, backend
             )
         moved = slice(0, 4) if self.rest is not None else slice(None)
         q[:, moved] = nearest_in_range(q[:, moved], rom.lower[moved], rom.upper[moved], wished[:, moved])
         return Postures(q, np.abs(sines[:, 0]), np.abs(sines[:, 1]))
+
+    def _pair(self, shoulder: ArrayLike, wrist: ArrayLike) -> Indices:
+        """Number of the branch among those of this side of the elbow."""
+        flipped = (np.asarray(shoulder) < 0).astype(np.int64)
+        return 2 * flipped + (np.asarray(wrist) < 0) if len(self.triples) == 2 else flipped
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +175,13 @@ class Postures:
 
 
 def triple_angles(
-    triple: AxisTriple, Q: Array, side: ArrayLike, lower: Array, upper: Array, wish: Array | None = None
+    triple: AxisTriple,
+    Q: Array,
+    side: ArrayLike,
+    lower: Array,
+    upper: Array,
+    wish: Array | None = None,
+    backend: Backend = "auto",
 ) -> tuple[Array, Array]:
     """Three angles of shoulder or wrist.
 
@@ -161,6 +192,7 @@ def triple_angles(
         lower: Lower limits of the three, shape (3,), in [rad].
         upper: Upper limits of the three, shape (3,), in [rad].
         wish: Angle the first joint takes where it is free, shape (n,), in [rad].
+        backend: "auto", "c" or "vm".
 
     Returns:
         Angles, shape (n, 3), in [rad], in (-π, π] before the offset of the second; and the sine of the
@@ -172,7 +204,7 @@ def triple_angles(
     sides = np.broadcast_to(np.asarray(side, dtype=np.float64), (len(Q),))
     free = first_at_pole(Q, lower, upper, wish)
     pole = np.column_stack([np.cos(free), np.sin(free)])
-    pairs = evaluate("swivel_sides", Q, sides[:, None], pole).reshape(-1, 3, 2)
+    pairs = evaluate("swivel_sides", Q, sides[:, None], pole, backend=backend).reshape(-1, 3, 2)
     angles = np.arctan2(pairs[..., 0], pairs[..., 1])
     angles[:, 1] -= triple.offset
     return angles, pairs[:, 1, 0]
@@ -184,6 +216,7 @@ def pose_curve(
     rotation: ArrayLike,
     side: int = 1,
     reference: ArrayLike | None = None,
+    backend: Backend = "auto",
 ) -> SwivelCurve:
     """All postures that bring the hand to given poses.
 
@@ -194,6 +227,7 @@ def pose_curve(
         side: Side of the elbow: 1 or -1, the sign of the angle from upper arm to forearm about joint 4.
         reference: Where the elbow points at ψ = 0, unit vector(s) in the base frame, shape (3,) or (n, 3);
             `spherical.reference` if left out.
+        backend: "auto", "c" or "vm".
 
     Returns:
         The curve.
@@ -210,7 +244,7 @@ def pose_curve(
     if p.ndim != 2 or p.shape[1:] != (3,) or R.shape != (len(p), 3, 3):
         raise ShapeError(f"position {p.shape} and rotation {R.shape}: expected (n, 3) and (n, 3, 3)")
     pose = np.hstack([p, R.reshape(-1, 9)])
-    return _curve(spherical, pose, geometry, side, reference, None)
+    return _curve(spherical, pose, geometry, side, reference, None, backend)
 
 
 def position_curve(
@@ -219,6 +253,7 @@ def position_curve(
     rest: ArrayLike,
     side: int = 1,
     reference: ArrayLike | None = None,
+    backend: Backend = "auto",
 ) -> SwivelCurve:
     """All postures that bring the hand to given positions while the joints after the elbow have given angles.
 
@@ -230,6 +265,7 @@ def position_curve(
         rest: Angles of the joints after the elbow, shape (n, dof - 4) or (dof - 4,), in [rad].
         side: Side of the elbow, 1 or -1.
         reference: As in `pose_curve`.
+        backend: "auto", "c" or "vm".
 
     Returns:
         The curve; `rest` is put into the postures as it is.
@@ -250,7 +286,7 @@ def position_curve(
         raise ShapeError(f"rest {given.shape}: expected ({free},) or ({len(p)}, {free})")
     given = np.broadcast_to(given, (len(p), free)).copy()
     pose = np.hstack([p, np.tile(np.eye(3).ravel(), (len(p), 1))])
-    return _curve(spherical, pose, position_geometry(spherical, given), side, reference, given)
+    return _curve(spherical, pose, position_geometry(spherical, given), side, reference, given, backend)
 
 
 def _curve(
@@ -260,12 +296,12 @@ def _curve(
     side: int,
     reference: ArrayLike | None,
     rest: Array | None,
+    backend: Backend,
 ) -> SwivelCurve:
     if isinstance(side, bool) or side not in (1, -1):
         raise OptionError(f"side of the elbow is {side!r}, expected 1 or -1")
-    values = evaluate(
-        "swivel_curve", pose, geometry, side, checked_reference(spherical, reference, len(pose))
-    )
+    r = checked_reference(spherical, reference, len(pose))
+    values = evaluate("swivel_curve", pose, geometry, side, r, backend=backend)
     triples = [spherical.shoulder]
     if rest is None and spherical.wrist is not None:
         triples.append(spherical.wrist)

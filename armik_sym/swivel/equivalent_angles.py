@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armik_sym.swivel.constants import ROUNDING, TURN
+
+__all__ = ["ROUNDING", "TURN", "margin", "nearest_in_range"]
+
 Array = NDArray[np.float64]
-
-TURN = 2 * np.pi
-
-# By how much an angle may leave the range for rounding, in [rad].
-ROUNDING = 1e-12
 
 
 def nearest_in_range(angle: Array, lower: Array, upper: Array, wish: Array) -> Array:

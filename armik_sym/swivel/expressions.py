@@ -19,11 +19,11 @@ import functools
 import casadi as ca
 
 from armik_sym.swivel import geometry as row
+from armik_sym.swivel.constants import POLE
 from armik_sym.symbolic.dense_function import dense_function
 from armik_sym.symbolic.row_order import row_by_row, row_major
 
 TINY = 1e-30
-POLE = 1e-26  # sin²b below which the outer two of three axes are parallel
 _REFERENCE = 1e-14  # |ŵ × r| below which r gives no direction
 
 
@@ -184,6 +184,24 @@ def sines_and_cosines(Q: ca.SX, side: ca.SX, pole: ca.SX) -> ca.SX:
     )
 
 
+def quotients(Q: ca.SX) -> ca.SX:
+    """Angles of Rz(a)·Ry(b)·Rz(c) on branch 1 as quotients, without square root or case.
+
+    As `sines_and_cosines`, each pair times |sin b|, that of b with the square of its sine.
+
+    Args:
+        Q: SX of shape (3, 3).
+
+    Returns:
+        SX of shape (6, 1): (y, x) of a; sin²b and cos b; (y, x) of c.
+
+    Source:
+        Siciliano et al., Robotics (2009), eq. 2.19-2.20.
+    """
+    x, y = Q[0, 2], Q[1, 2]
+    return ca.vertcat(y, x, x * x + y * y, Q[2, 2], x * Q[1, 0] - y * Q[0, 0], x * Q[1, 1] - y * Q[0, 1])
+
+
 def swivel_of(q: ca.SX, middle: ca.SX, geometry: ca.SX, reference: ca.SX) -> ca.SX:
     """The swivel angle of a posture and the signs of its branches.
 
@@ -217,6 +235,7 @@ def swivel_functions() -> dict[str, ca.Function]:
 
     - `swivel_curve` (pose 12, geometry 46, side 1, reference 3) → 58: `swivel_curve`.
     - `swivel_sides` (Q 9, side 1, pole 2) → 6: `sines_and_cosines`.
+    - `swivel_quotients` (Q 9) → 6: `quotients`.
     - `swivel_of` (q 4, middle 1, geometry 46, reference 3) → 4: `swivel_of`.
 
     Returns:
@@ -241,6 +260,7 @@ def swivel_functions() -> dict[str, ca.Function]:
                 {"Q": Q, "side": side, "pole": pole},
                 sines_and_cosines(row_major(Q), side, pole),
             ),
+            dense_function("swivel_quotients", {"Q": Q}, quotients(row_major(Q))),
             dense_function(
                 "swivel_of",
                 {"q": q, "middle": middle, "geometry": geometry, "reference": reference},

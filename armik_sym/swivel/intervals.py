@@ -7,17 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armik_sym.compiled.backend import Backend
+from armik_sym.swivel.c_intervals import compiled_intervals
 from armik_sym.swivel.closed_form import SwivelCurve, pose_curve
-from armik_sym.swivel.equivalent_angles import ROUNDING, TURN
+from armik_sym.swivel.constants import REACH, ROUNDING, TURN
 from armik_sym.swivel.joint_margins import elbow_margins, joint_margins
+from armik_sym.swivel.library import swivel_library
 from armik_sym.swivel.limit_cuts import limit_cuts
 from armik_sym.swivel.spherical_arm import SphericalArm
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-# By how much a target may be out of reach for rounding, in [m].
-REACH = 1e-9
 
 _BLOCK = 2048
 _NONE = np.zeros(0)
@@ -66,7 +66,11 @@ class FeasibleIntervals:
 
 
 def feasible_intervals(
-    spherical: SphericalArm, position: ArrayLike, rotation: ArrayLike, reference: ArrayLike | None = None
+    spherical: SphericalArm,
+    position: ArrayLike,
+    rotation: ArrayLike,
+    reference: ArrayLike | None = None,
+    backend: Backend = "auto",
 ) -> FeasibleIntervals:
     """All swivel angles that keep every joint inside the range of motion while the hand has given poses.
 
@@ -75,6 +79,7 @@ def feasible_intervals(
         position: Positions of the hand, shape (n, 3), in [m].
         rotation: Rotations of the hand, shape (n, 3, 3).
         reference: As in `pose_curve`.
+        backend: "auto", "c" or "vm".
 
     Returns:
         Intervals for all eight branches.
@@ -86,11 +91,13 @@ def feasible_intervals(
     Source:
         Shimizu et al. (2008).
     """
-    curves = tuple(pose_curve(spherical, position, rotation, side, reference) for side in (1, -1))
-    return intervals_of_curves((curves[0], curves[1]))
+    curves = tuple(pose_curve(spherical, position, rotation, side, reference, backend) for side in (1, -1))
+    return intervals_of_curves((curves[0], curves[1]), backend)
 
 
-def intervals_of_curves(curves: tuple[SwivelCurve, SwivelCurve]) -> FeasibleIntervals:
+def intervals_of_curves(
+    curves: tuple[SwivelCurve, SwivelCurve], backend: Backend = "auto"
+) -> FeasibleIntervals:
     """The same from curves, of poses or of positions.
 
     Between neighbouring cuts every joint stays on one side of its limits: the middle decides for the whole
@@ -98,6 +105,7 @@ def intervals_of_curves(curves: tuple[SwivelCurve, SwivelCurve]) -> FeasibleInte
 
     Args:
         curves: The postures with elbow side 1 and with -1.
+        backend: "auto", "c" or "vm".
 
     Returns:
         Intervals for all eight branches, or the four that positions have.
@@ -105,6 +113,17 @@ def intervals_of_curves(curves: tuple[SwivelCurve, SwivelCurve]) -> FeasibleInte
     Source:
         Shimizu et al. (2008).
     """
+    library = swivel_library(backend)
+    found = _in_numpy(curves) if library is None else compiled_intervals(library, curves)
+    wrists = (1, -1) if len(curves[0].triples) == 2 else (1,)
+    signs = [(e, s, w) for e in (1, -1) for s in (1, -1) for w in wrists]
+    return FeasibleIntervals(curves, np.array(signs, dtype=np.int64), *found)
+
+
+def _in_numpy(
+    curves: tuple[SwivelCurve, SwivelCurve],
+) -> tuple[Indices, Indices, Array, Array, NDArray[np.bool_]]:
+    """Sample, branch, start and end of every interval, sorted; whether a branch has none."""
     n, pairs = len(curves[0].elbow), 2 ** len(curves[0].triples)
     found: list[tuple[Indices, Indices, Array, Array]] = []
     for e, curve in enumerate(curves):
@@ -118,16 +137,7 @@ def intervals_of_curves(curves: tuple[SwivelCurve, SwivelCurve]) -> FeasibleInte
     order = np.lexsort((start, branch, sample))
     empty = np.ones((n, 2 * pairs), dtype=np.bool_)
     empty[sample, branch] = False
-    signs = [(e, s, w) for e in (1, -1) for s in (1, -1) for w in ((1, -1) if pairs == 4 else (1,))]
-    return FeasibleIntervals(
-        curves,
-        np.array(signs, dtype=np.int64),
-        sample[order],
-        branch[order],
-        start[order],
-        end[order],
-        empty,
-    )
+    return sample[order], branch[order], start[order], end[order], empty
 
 
 def _arcs(curve: SwivelCurve) -> tuple[Indices, Indices, Array, Array]:

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.swivel.closed_form import SwivelCurve, triple_angles
+from armik_sym.swivel.constants import POLE
 from armik_sym.swivel.equivalent_angles import margin
-from armik_sym.swivel.expressions import POLE
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ def joint_margins(curve: SwivelCurve, psi: Array) -> Array:
     for i, triple in enumerate(curve.triples):
         part = slice(triple.first, triple.first + 3)
         lower, upper = rom.lower[part], rom.upper[part]
-        angles, _ = triple_angles(triple, Q[:, :, i].reshape(-1, 9), 1, lower=lower, upper=upper)
+        angles, _ = triple_angles(triple, Q[:, :, i].reshape(-1, 9), 1, lower, upper, backend="vm")
         parallel = Q[:, :, i, 2] ** 2 + Q[:, :, i, 5] ** 2 < POLE  # both branches are one
         half_turn = np.where(parallel.ravel(), 0.0, np.pi)
         other = angles + np.column_stack([half_turn, np.zeros(len(angles)), half_turn])

@@ -5,15 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armik_sym.swivel.axis_triple import AxisTriple
 from armik_sym.swivel.closed_form import SwivelCurve
-from armik_sym.swivel.equivalent_angles import ROUNDING, TURN
+from armik_sym.swivel.constants import PARALLEL, ROUNDING, TURN
 
 Array = NDArray[np.float64]
 
 _Q11, _Q12, _Q13, _Q21, _Q22, _Q23, _Q31, _Q32, _Q33 = range(9)
-
-# Sine of an angle below which axes count as parallel.
-_PARALLEL = 1e-13
 
 
 def limit_cuts(curve: SwivelCurve, extra: Array | float = 0.0) -> Array:
@@ -44,21 +42,37 @@ def limit_cuts(curve: SwivelCurve, extra: Array | float = 0.0) -> Array:
                 j = triple.first + k
                 if rom.upper[j] - rom.lower[j] >= TURN - ROUNDING:
                     continue
-                limit = (limits[j] + outwards)[:, None]
-                if k == 1:
-                    coefficients = C[:, :, _Q33].copy()
-                    coefficients[:, 0] -= np.cos(limit[:, 0] + triple.offset)
-                else:
-                    s, c = np.sin(limit), np.cos(limit)
-                    cosine, sine = (-C[:, :, _Q31], C[:, :, _Q32]) if k else (C[:, :, _Q13], C[:, :, _Q23])
-                    coefficients = s * cosine - c * sine
-                found.append(zeros(coefficients))
+                found.append(zeros(joint_coefficients(C, triple, k, limits[j] + outwards)))
         part = slice(triple.first, triple.first + 3)
         found += _parallel(C, rom.lower[part], rom.upper[part], wider)
     if not found:
         return np.full((len(curve.elbow), 1), -np.pi)
     cuts = np.concatenate(found, axis=1)
     return np.sort(np.where(np.isnan(cuts), -np.pi, cuts), axis=1)
+
+
+def joint_coefficients(C: Array, triple: AxisTriple, k: int, limit: Array) -> Array:
+    """a, b, c of the equation whose roots are the swivel angles at which a joint has a given angle.
+
+    Args:
+        C: C0, C1, C2 of shoulder or wrist, shape (n, 3, 9).
+        triple: The three axes.
+        k: Which of the three joints.
+        limit: The angle, shape (n,), in [rad].
+
+    Returns:
+        Shape (n, 3); the roots are also those of the angle half a turn away (k = 0, 2) or its mirror (k = 1).
+
+    Source:
+        Shimizu et al. (2008), over C0, C1, C2.
+    """
+    if k == 1:
+        coefficients = C[:, :, _Q33].copy()
+        coefficients[:, 0] -= np.cos(limit + triple.offset)
+        return coefficients
+    s, c = np.sin(limit)[:, None], np.cos(limit)[:, None]
+    cosine, sine = (-C[:, :, _Q31], C[:, :, _Q32]) if k else (C[:, :, _Q13], C[:, :, _Q23])
+    return np.asarray(s * cosine - c * sine)
 
 
 def zeros(coefficients: Array) -> Array:
@@ -103,7 +117,7 @@ def wrapped(psi: Array) -> Array:
 
 def _parallel(C: Array, lower: Array, upper: Array, wider: Array) -> list[Array]:
     """Where the outer axes are parallel for every ψ (straight arm): limits of α + γ, or of α - γ."""
-    rows = np.flatnonzero(np.abs(C[:, :, [_Q13, _Q23, _Q31, _Q32]]).max(axis=(1, 2)) < _PARALLEL)
+    rows = np.flatnonzero(np.abs(C[:, :, [_Q13, _Q23, _Q31, _Q32]]).max(axis=(1, 2)) < PARALLEL)
     found = []
     for sign in (1.0, -1.0):
         chosen = rows[C[rows, 0, _Q33] * sign > 0]

@@ -5,12 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.constants import NEAR, TURN
 
 Array = NDArray[np.float64]
-
-# sin²β below which somebody might ask: above `POLE` of the expressions.
-_NEAR = 1e-20
 
 
 def first_at_pole(Q: Array, lower: Array, upper: Array, wish: Array | None = None) -> Array:
@@ -34,7 +31,7 @@ def first_at_pole(Q: Array, lower: Array, upper: Array, wish: Array | None = Non
     """
     middle, half = 0.5 * (lower + upper), 0.5 * (upper - lower)
     out = np.full(len(Q), middle[0]) if wish is None else np.array(wish, dtype=np.float64)
-    near = np.flatnonzero(Q[:, 2] ** 2 + Q[:, 5] ** 2 < _NEAR)
+    near = np.flatnonzero(Q[:, 2] ** 2 + Q[:, 5] ** 2 < NEAR)
     if not near.size:
         return out
     R = Q[near]

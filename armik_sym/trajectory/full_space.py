@@ -1,12 +1,13 @@
 """The whole-trajectory problem in full space: every joint angle of every sample is a variable.
 
-    minimise   ½ xᵀ P x + cᵀ x                      (smoothness, posture, soft tracking)
+    minimise   ½ xᵀ P x + cᵀ x + Σ_k w_k·ℓ(q_k)     (smoothness, posture, soft tracking; clearance, elbow)
     subject to r(q_k, target_k) - e_k = 0           for every sample k (e = 0 for exact tracking)
                -v ≤ D q ≤ v,  -a ≤ D2 q ≤ a         if asked for
                lower ≤ q_k ≤ upper                  as variable bounds
 
-The tracking equations and their derivatives are called sample by sample as compiled functions;
-everything else is constant sparse matrices. So building costs little, and no length compiles anew.
+The tracking equations, the cost ℓ of a posture and their derivatives are called sample by sample as
+compiled functions; everything else is constant sparse matrices. So building costs little, and no length
+compiles anew.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from armik_sym.compiled.stage_functions import StageFunctions
+from armik_sym.trajectory.posture_cost import PostureCost
 
 Array = NDArray[np.float64]
 
@@ -36,6 +38,19 @@ class QuadraticCost:
     P: sp.csc_array
     c: Array
     scale: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class SampleCost:
+    """Σ_k w_k·ℓ(q_k).
+
+    Attributes:
+        posture: ℓ, the cost of one posture.
+        weights: w, shape (n,): the time each sample stands for in [s], times the scale of the objective.
+    """
+
+    posture: PostureCost
+    weights: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +85,7 @@ def full_space_problem(
     rate_rows: sp.csr_array,
     *,
     soft: bool,
+    sample_cost: SampleCost | None = None,
 ) -> FullSpaceProblem:
     """Assemble the problem from compiled stage functions and constant matrices.
 
@@ -81,6 +97,7 @@ def full_space_problem(
         cost: Quadratic objective over all variables.
         rate_rows: Rows on the angles, shape (n_rates, n·dof).
         soft: True if tracking errors e are variables.
+        sample_cost: Further objective, sample by sample.
 
     Returns:
         The problem.
@@ -97,6 +114,7 @@ def full_space_problem(
     P = to_casadi(cost.P)
     Px = ca.mtimes(P, x)
     f = 0.5 * ca.dot(x, Px) + ca.dot(ca.DM(cost.c), x)
+    slope = Px + ca.DM(cost.c)
     residual = ca.vec(for_all_samples(stage.residual, n)(q, *fixed))
     if soft:
         residual = residual - x[n * dof :]
@@ -112,6 +130,11 @@ def full_space_problem(
     lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", g.shape[0])
     multipliers = ca.reshape(lam_g[: n * equations], equations, n)
     curvature = ca.vec(for_all_samples(stage.hessian, n)(q, *fixed, multipliers))
+    if sample_cost is not None:
+        value, gradient, hessian = _sample_cost(sample_cost, q)
+        f = f + value
+        slope = slope + ca.vertcat(gradient, ca.DM.zeros(x.shape[0] - n * dof))
+        curvature = curvature + lam_f * hessian
     H = ca.triu(ca.MX(_block_diagonal(dof, dof, n), curvature))
     if soft:
         H = ca.diagcat(H, ca.DM(n * equations, n * equations))
@@ -122,7 +145,7 @@ def full_space_problem(
         x=x,
         f=f,
         g=g,
-        gradient=ca.Function("grad_f", [x, p], [f, Px + ca.DM(cost.c)]),
+        gradient=ca.Function("grad_f", [x, p], [f, slope]),
         jacobian=ca.Function("jac_g", [x, p], [g, J]),
         hessian=ca.Function("hess_lag", [x, p, lam_f, lam_g], [H]),
         scale=cost.scale,
@@ -148,20 +171,37 @@ def to_casadi(matrix: sp.sparray) -> ca.DM:
     return ca.DM(sparsity, csc.data)
 
 
-def for_all_samples(function: ca.Function, n: int) -> ca.Function:
-    """A stage function evaluated for n samples; the segment lengths, argument 1, are the same for all.
+def _sample_cost(cost: SampleCost, q: ca.MX) -> tuple[ca.MX, ca.MX, ca.MX]:
+    """Value (1, 1), gradient (n·dof, 1) and the Hessian's blocks, one after another, (n·dof·dof, 1)."""
+    n, dof, posture = q.shape[1], q.shape[0], cost.posture
+    fixed = (ca.DM(posture.lengths), ca.DM(posture.parameters))
+    value, gradient, hessian = (
+        for_all_samples(function, n, alike=(1, 2))(q, *fixed)
+        for function in (posture.value, posture.gradient, posture.hessian)
+    )
+    weights = ca.DM(cost.weights)
+    return (
+        ca.mtimes(value, weights),
+        ca.vec(gradient) * ca.DM(np.repeat(cost.weights, dof)),
+        ca.vec(hessian) * ca.DM(np.repeat(cost.weights, dof * dof)),
+    )
+
+
+def for_all_samples(function: ca.Function, n: int, alike: tuple[int, ...] = (1,)) -> ca.Function:
+    """A stage function evaluated for n samples; some arguments are the same for all.
 
     Args:
         function: Stage function (q, lengths, …) → vector.
         n: Number of samples.
+        alike: Arguments that are the same for all samples, by default the segment lengths.
 
     Returns:
-        Function of matrices with one column per sample, and of the lengths.
+        Function of matrices with one column per sample, and of the arguments that are alike.
 
     Source:
         None (CasADi's map).
     """
-    return function.map(f"{function.name()}_map", "serial", n, [1], [])
+    return function.map(f"{function.name()}_map", "serial", n, list(alike), [])
 
 
 def _block_diagonal(rows: int, columns: int, n: int) -> ca.Sparsity:

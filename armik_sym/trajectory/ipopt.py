@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -100,13 +100,14 @@ class _Watch(ca.Callback):
 
 
 def run_ipopt(
-    problem: FullSpaceProblem,
+    problem: Any,
     bounds: Bounds,
     x0: Array,
     *,
     max_iterations: int,
     output: bool = False,
     report: IterationCallback | None = None,
+    settings: Mapping[str, object] | None = None,
 ) -> IpoptResult:
     """Solve a problem with IPOPT.
 
@@ -119,6 +120,7 @@ def run_ipopt(
         max_iterations: Iteration limit.
         output: Let IPOPT print.
         report: Called after every iteration with its number and the largest constraint violation.
+        settings: Options of IPOPT that differ from those used for the full-space problem.
 
     Returns:
         The result; look at `converged`.
@@ -148,7 +150,7 @@ def run_ipopt(
             # Bounds are made here and sound; the check would print where joints of zero range leave fewer
             # variables than equations, which IPOPT can handle.
             "inputs_check": False,
-            "ipopt": _settings(problem.scale, max_iterations, output),
+            "ipopt": {**_settings(problem.scale, max_iterations, output), **(settings or {})},
         },
     )
     try:

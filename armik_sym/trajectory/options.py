@@ -10,15 +10,23 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from armik_sym.errors import OptionError
+from armik_sym.trajectory.posture_cost.clearance import check_clearance
+from armik_sym.trajectory.posture_cost.preference import check_preference
+
+_CLEARANCE = math.radians(10.0)
+_WEIGHTS = ("speed_weight", "acceleration_weight", "posture_weight", "clearance_weight", "prefer_weight")
 
 
 @dataclass(frozen=True)
 class TrajectoryOptions:
     """Choices for `solve(..., method="trajectory")`.
 
-    The objective is ∫ speed_weight·|q̇|² + acceleration_weight·|q̈|² + posture_weight·|q - middle|² dt,
-    with soft tracking plus ∫ |position error|²/position_sigma² + |rotation error|²/rotation_sigma² dt,
-    halved, and with differences between samples in place of derivatives.
+    The objective is ∫ speed_weight·|q̇|² + acceleration_weight·|q̈|² + posture_weight·|q - preferred|²
+    + clearance_weight·Σ_j φ(m_j/clearance_j) + prefer_weight·(1 - d·u) dt, with soft tracking plus
+    ∫ |position error|²/position_sigma² + |rotation error|²/rotation_sigma² dt, halved, and with differences
+    between samples in place of derivatives. Here m_j is the distance of joint j from its nearest limit,
+    φ(x) = (1 - x)³ for x < 1 and 0 beyond, u the unit vector from shoulder to elbow and d the direction
+    preferred for it.
 
     Attributes:
         orientation: "full", "pointing" (fingers only) or "none"; None takes "full" if the path has
@@ -31,8 +39,23 @@ class TrajectoryOptions:
         speed_weight: Weight of squared joint speed, in [1].
         acceleration_weight: Weight of squared joint acceleration, in [s²]; 0.01 s² makes a motion of
             1 rad/s and one of 10 rad/s² cost the same.
-        posture_weight: Weight of the distance from mid-range, in [1/s²]; small, it settles what path
-            and smoothness leave open and keeps away from limits.
+        posture_weight: Weight of the distance from mid-range, or from the posture preferred, in [1/s²];
+            small, it settles what path and smoothness leave open and keeps away from limits.
+        clearance_weight: What a joint at its limit costs, in [1/s²]: as much as a joint that turns at
+            √clearance_weight rad/s. 0 (default): no such term. Try 1 to 10.
+        clearance: Distance from a limit at which that cost begins, one number or one per joint, in [rad].
+            One number is for the joints that turn; joints that slide count only if every joint has its own
+            number, theirs in [m]. 0: never. Where half the range h_j is less, it is taken instead, and the
+            weight of this joint is multiplied by (h_j/clearance_j)².
+        prefer: What to draw the arm to where path and smoothness leave freedom. A posture, shape (dof,), in
+            [rad], takes the place of mid-range in the posture term; raise `posture_weight` to draw harder.
+            "elbow_low", "elbow_high", "elbow_out" (away from the body) or "elbow_in", or a vector of
+            shape (3,) in the base frame of any length: the direction from the shoulder in which the elbow
+            should be, for arms with spherical shoulder and hinge elbow. The words need an arm that says
+            where up and outward are. None (default): mid-range, no direction.
+        prefer_weight: Half of what an elbow costs that points the opposite way, in [1/s²]; at right angles
+            to the direction preferred it costs as much as a joint that turns at √prefer_weight rad/s. Only
+            where `prefer` is about the elbow.
         position_sigma: Soft tracking: position error that costs one unit, in [m].
         rotation_sigma: Soft tracking: rotation error that costs one unit, in [rad].
         position_tolerance: Position error up to which the solution calls itself ok, in [m]; None means
@@ -55,6 +78,10 @@ class TrajectoryOptions:
     speed_weight: float = 1.0
     acceleration_weight: float = 0.01
     posture_weight: float = 1e-3
+    clearance_weight: float = 0.0
+    clearance: float | ArrayLike = _CLEARANCE
+    prefer: str | ArrayLike | None = None
+    prefer_weight: float = 5.0
     position_sigma: float = 1e-3
     rotation_sigma: float = 0.01
     position_tolerance: float | None = None
@@ -66,8 +93,10 @@ class TrajectoryOptions:
     def __post_init__(self) -> None:
         if self.tracking not in ("exact", "soft"):
             raise OptionError(f"tracking is {self.tracking!r}: valid are exact, soft")
-        for name in ("speed_weight", "acceleration_weight", "posture_weight"):
+        for name in _WEIGHTS:
             _check(name, getattr(self, name), zero=True)
+        check_clearance(self.clearance)
+        check_preference(self.prefer)
         for name in ("position_sigma", "rotation_sigma", "start_tolerance", "max_iterations"):
             _check(name, getattr(self, name), zero=False)
         if self.max_iterations != int(self.max_iterations):

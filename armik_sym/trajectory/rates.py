@@ -85,11 +85,37 @@ def smoothness_matrix(
     Source:
         None (this package).
     """
+    rows = smoothness_rows(time, speed_weight, acceleration_weight, posture_weight)
+    return sp.csr_array(rows.T @ rows)
+
+
+def smoothness_rows(
+    time: Array, speed_weight: float, acceleration_weight: float, posture_weight: float
+) -> sp.csr_array:
+    """S with SᵀS = K of `smoothness_matrix`: the objective as a sum of squares, which rounding spares.
+
+    Rows √(w_v h_k)·(D q)_k, then √(w_a s_k)·(D2 q)_k, then √(w_p d_k)·q_k.
+
+    Args:
+        time: As for `smoothness_matrix`, in [s].
+        speed_weight: As for `smoothness_matrix`.
+        acceleration_weight: As for `smoothness_matrix`, in [s²].
+        posture_weight: As for `smoothness_matrix`, in [1/s²].
+
+    Returns:
+        Shape (n - 1 + max(n - 2, 0) + n, n).
+
+    Source:
+        None (this package).
+    """
     n = len(time)
     spacing = np.diff(time)
     spaced = np.concatenate([[0.0], np.cumsum(np.maximum(spacing, _NEAREST * np.median(spacing)))])
-    first, second = speed_matrix(spaced), acceleration_matrix(spaced)
-    K = speed_weight * (first.T @ sp.diags_array(np.diff(spaced)) @ first)
+    rows = [
+        sp.diags_array(np.sqrt(speed_weight * np.diff(spaced))) @ speed_matrix(spaced),
+        sp.diags_array(np.sqrt(posture_weight * sample_durations(time))),
+    ]
     if n >= 3:
-        K = K + acceleration_weight * (second.T @ sp.diags_array(0.5 * (spaced[2:] - spaced[:-2])) @ second)
-    return sp.csr_array(K + sp.diags_array(posture_weight * sample_durations(time)))
+        weights = np.sqrt(acceleration_weight * 0.5 * (spaced[2:] - spaced[:-2]))
+        rows.insert(1, sp.diags_array(weights) @ acceleration_matrix(spaced))
+    return sp.csr_array(sp.vstack(rows))

@@ -16,11 +16,13 @@ from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.full_space import (
     FullSpaceProblem,
     QuadraticCost,
+    SampleCost,
     for_all_samples,
     full_space_problem,
 )
 from armik_sym.trajectory.ipopt import Bounds
 from armik_sym.trajectory.options import TrajectoryOptions
+from armik_sym.trajectory.posture_cost import PostureCost, posture_cost, preferred_posture
 from armik_sym.trajectory.rates import (
     acceleration_matrix,
     sample_durations,
@@ -41,6 +43,8 @@ _LARGEST_CURVATURE = 1e4
 class Task:
     """What is to be solved.
 
+    Making one refuses clearances and preferences that do not fit the arm, and compiles what they cost.
+
     Attributes:
         arm: The arm.
         path: The hand path.
@@ -50,6 +54,9 @@ class Task:
         max_acceleration: Acceleration limits, shape (dof,), in [rad/s²].
         first: The posture at sample 0 if it is known, shape (dof,), in [rad], otherwise None.
         stage: Compiled tracking equations.
+
+    Raises:
+        OptionError: If clearances or preference do not fit the arm.
     """
 
     arm: Arm
@@ -60,6 +67,19 @@ class Task:
     max_acceleration: Array
     first: Array | None
     stage: StageFunctions
+
+    def __post_init__(self) -> None:
+        _ = self.preferred_posture, self.posture_cost
+
+    @cached_property
+    def preferred_posture(self) -> Array:
+        """The posture that the posture term is drawn to, shape (dof,), in [rad]."""
+        return preferred_posture(self.arm, self.options.prefer)
+
+    @cached_property
+    def posture_cost(self) -> PostureCost | None:
+        """Clearance and elbow direction as a cost of single postures; None if not asked for."""
+        return posture_cost(self.arm, self.options, "auto" if self.stage.backend == "c" else "vm")
 
     @cached_property
     def targets(self) -> Array:
@@ -90,8 +110,17 @@ class Task:
             None (direct transcription).
         """
         rows = self._rate_rows() if rates else sp.csr_array((0, len(self.path) * self.arm.dof))
+        cost, posture = self._cost(soft), self.posture_cost
+        weights = cost.scale * sample_durations(self.path.time)
         return full_space_problem(
-            self.stage, self.arm.length_values, self.targets, self.arm.dof, self._cost(soft), rows, soft=soft
+            self.stage,
+            self.arm.length_values,
+            self.targets,
+            self.arm.dof,
+            cost,
+            rows,
+            soft=soft,
+            sample_cost=None if posture is None else SampleCost(posture, weights),
         )
 
     def bounds(self, *, soft: bool, rates: bool) -> Bounds:
@@ -183,7 +212,7 @@ class Task:
         o, dof, m, time = self.options, self.arm.dof, self.orientation.equations, self.path.time
         K = smoothness_matrix(time, o.speed_weight, o.acceleration_weight, o.posture_weight)
         P = sp.csc_array(sp.kron(K, sp.eye_array(dof)))
-        c = -o.posture_weight * np.outer(sample_durations(time), self.arm.rom.middle).ravel()
+        c = -o.posture_weight * np.outer(sample_durations(time), self.preferred_posture).ravel()
         if soft:
             sigma = np.array([o.position_sigma] * 3 + [o.rotation_sigma] * (m - 3))
             weights = np.outer(sample_durations(time), sigma**-2).ravel()
@@ -191,5 +220,8 @@ class Task:
             c = np.concatenate([c, np.zeros(len(weights))])
         # At high sampling rates second differences weigh 1/h³: brought back to the size IPOPT's own
         # constants are made for. A factor on the objective changes no optimum.
-        scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, float(K.diagonal().max()))
+        largest = float(K.diagonal().max())
+        if self.posture_cost is not None:
+            largest += self.posture_cost.curvature * float(sample_durations(time).max())
+        scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, largest)
         return QuadraticCost(scale * P, scale * c, scale)

@@ -67,4 +67,5 @@ def alfaiz(upper_arm: float = 0.30, forearm: float = 0.24) -> Arm:
         lengths={"upper_arm": upper_arm, "forearm": forearm},
         pointing_axis=np.array([0.0, 0.0, 1.0]),
         description="seven-joint human arm, Al-Faiz, Table 1 (y up)",
+        up=np.array([0.0, 1.0, 0.0]),
     )

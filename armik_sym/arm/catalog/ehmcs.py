@@ -25,6 +25,10 @@ _FOREARM = 0.336
 _SHOULDER_LOWER_DEG = (-50.0, -180.0, -45.0)
 _SHOULDER_UPPER_DEG = (175.0, 180.0, 70.0)
 
+# Of a left arm with x up and y to the right.
+_UP = np.array([1.0, 0.0, 0.0])
+_LEFT = np.array([0.0, -1.0, 0.0])
+
 _FINGERS = np.array([1.0, 0.0, 0.0])
 _FOREARM_OF_FRAME_5 = np.array([0.0, 1.0, 0.0])
 
@@ -86,4 +90,6 @@ def ehmcs(dof: int = 7) -> Arm:
         lengths={"upper_arm": _UPPER_ARM, "forearm": _FOREARM},
         pointing_axis=_FINGERS if dof == 7 else _FOREARM_OF_FRAME_5,
         description="E-HMCS exoskeleton, Nguyen 2021, Table 4 (left arm, x up, z forward)",
+        up=_UP,
+        outward=_LEFT,
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from armik_sym.arm.catalog.wrist_rows import (
     ELBOW_TO_WRIST_LOWER_DEG,
     ELBOW_TO_WRIST_UPPER_DEG,
@@ -18,6 +20,10 @@ from armik_sym.arm.rigid_transform import rotation_x
 
 _SHOULDER_LOWER_DEG = (-180.0, -50.0, -45.0)
 _SHOULDER_UPPER_DEG = (180.0, 175.0, 70.0)
+
+# Of a left arm with x up and y to the right.
+_UP = np.array([1.0, 0.0, 0.0])
+_LEFT = np.array([0.0, -1.0, 0.0])
 
 
 def human(upper_arm: float = 0.28, forearm: float = 0.26, hand: float = 0.19) -> Arm:
@@ -71,4 +77,6 @@ def human(upper_arm: float = 0.28, forearm: float = 0.26, hand: float = 0.19) ->
         ),
         lengths={"upper_arm": upper_arm, "forearm": forearm, "hand": hand},
         description="human-arm model, Nguyen 2021, eq. 6-7 and Tables 1-2 (left arm, x up, z forward)",
+        up=_UP,
+        outward=_LEFT,
     )

@@ -1,0 +1,192 @@
+"""Where a way runs between its knots when it changes the branch there, or leaves the intervals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armik_sym.compiled.backend import Backend
+from armik_sym.swivel.branches import swivel_of_postures
+from armik_sym.swivel.intervals import FeasibleIntervals
+from armik_sym.swivel.limit_cuts import zeros
+from armik_sym.swivel.postures_at import postures_at
+from armik_sym.trajectory.global_path.search import Way
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_AROUND = 0.4
+_TRIED = 33
+_OUTSIDE = 100.0
+_GAIN = 1e-3
+
+
+def with_samples(
+    way: Way, further: Indices, time: Array, intervals: FeasibleIntervals, reference: Array, backend: Backend
+) -> tuple[Way, Array]:
+    """A way with further samples: there, the posture nearest to the straight line from knot to knot.
+
+    Tried are swivel angles around that of the straight line, and those at which the first angle of shoulder or
+    wrist is as on the line: beside a pole they are the ones that count.
+
+    Args:
+        way: The way.
+        further: Samples that are not its knots, increasing, shape (k,).
+        time: Time stamps of the path, shape (n,), in [s].
+        intervals: The feasible intervals.
+        reference: Reference directions of the swivel angles, shape (n, 3).
+        backend: "auto", "c" or "vm".
+
+    Returns:
+        The way with these knots added, and how far each is from the line, shape (k,), in [rad].
+
+    Source:
+        None (this package).
+    """
+    line = np.array([np.interp(time[further], time[way.sample], column) for column in way.q.T]).T
+    before = np.searchsorted(way.sample, further) - 1
+    branch, psi, away = _nearest(
+        further, way.branch[before], way.branch[before + 1], line, intervals, reference, backend
+    )
+    merged = np.argsort(np.concatenate([way.sample, further]), kind="stable")
+
+    def joined(of_way: Array, of_further: Array) -> Array:
+        return np.asarray(np.concatenate([of_way, of_further])[merged])
+
+    return (
+        Way(
+            joined(way.sample, further).astype(np.int64),
+            joined(way.branch, branch).astype(np.int64),
+            np.unwrap(joined(way.psi, psi)),
+            joined(way.q, line),
+            way.cost,
+        ),
+        away,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Reassigned:
+    """Branches after samples beside poles were looked at again.
+
+    Attributes:
+        branch: Branch of every sample, shape (n,).
+        psi: Swivel angle of the samples looked at, shape (n,), in [rad].
+        q: Posture the others ask them to be near to, shape (n, dof), in [rad].
+    """
+
+    branch: Indices
+    psi: Array
+    q: Array
+
+
+def reassigned(
+    q: Array,
+    branch: Indices,
+    looked_at: Indices,
+    time: Array,
+    intervals: FeasibleIntervals,
+    reference: Array,
+    backend: Backend,
+) -> Reassigned:
+    """For samples beside a pole, the branch that comes nearest to what their neighbours ask for.
+
+    The two branches of a sample share out the directions in which a motion can pass its pole; when the
+    direction turns, a sample can find itself on the wrong one.
+
+    Args:
+        q: Joint angles, shape (n, dof), in [rad].
+        branch: Branch of every sample, shape (n,).
+        looked_at: Samples to look at, increasing, shape (k,).
+        time: Time stamps, shape (n,), in [s].
+        intervals: The feasible intervals.
+        reference: Reference directions, shape (n, 3).
+        backend: "auto", "c" or "vm".
+
+    Returns:
+        The branches.
+
+    Source:
+        None (this package).
+    """
+    found = Reassigned(branch.copy(), np.zeros(len(branch)), q.copy())
+    inner = looked_at[(looked_at > 0) & (looked_at < len(q) - 1)]
+    if not inner.size:
+        return found
+    share = ((time[inner] - time[inner - 1]) / (time[inner + 1] - time[inner - 1]))[:, None]
+    line = q[inner - 1] + share * (q[inner + 1] - q[inner - 1])
+    other = _across(intervals, branch, inner)
+    own = branch[inner]
+    best, psi, away = _nearest(inner, own, other, line, intervals, reference, backend)
+    now = np.abs(q[inner] - line).max(axis=1)
+    better = (best != own) & (away < now - _GAIN)
+    found.branch[inner[better]] = best[better]
+    found.psi[inner], found.q[inner] = psi, line
+    return found
+
+
+def _across(intervals: FeasibleIntervals, branch: Indices, samples: Indices) -> Indices:
+    """The branch on the other side of the nearest pole of each sample: shoulder or wrist turned over."""
+    signs = intervals.branches[branch[samples]]
+    sines = np.empty((len(samples), 2))
+    for curve, side in zip(intervals.curves, (1, -1), strict=True):
+        rows = np.flatnonzero(signs[:, 0] == side)
+        q33 = curve.parts[samples[rows]][:, :, :, 8]
+        highest = np.abs(q33[:, :, 0]) + np.hypot(q33[:, :, 1], q33[:, :, 2])
+        sines[rows] = 1.0 - highest
+    shoulder = sines[:, 0] <= sines[:, 1]
+    turned = signs * np.column_stack([np.ones(len(samples)), np.where(shoulder, -1, 1), np.where(shoulder, 1, -1)])
+    return np.array([np.flatnonzero((intervals.branches == row).all(axis=1))[0] for row in turned], dtype=np.int64)
+
+
+def _nearest(
+    further: Indices,
+    before: Indices,
+    after: Indices,
+    line: Array,
+    intervals: FeasibleIntervals,
+    reference: Array,
+    backend: Backend,
+) -> tuple[Indices, Array, Array]:
+    """Branch (one of two), swivel angle and distance of the posture nearest to a line, for each sample."""
+    sample, branch, psi = _tried(further, before, after, line, intervals, reference)
+    rom = intervals.curves[0].spherical.arm.rom
+    q = postures_at(intervals.curves, sample, branch, psi, backend=backend).q
+    row = np.searchsorted(further, sample)
+    away = np.abs(q - line[row]).max(axis=1) + _OUTSIDE * np.maximum(-rom.margin(q).min(axis=1) - 1e-9, 0.0)
+    order = np.lexsort((away, row))
+    _, first = np.unique(row[order], return_index=True)
+    best = order[first]
+    return branch[best], psi[best], away[best]
+
+
+def _tried(
+    further: Indices, before: Indices, after: Indices, line: Array, intervals: FeasibleIntervals, reference: Array
+) -> tuple[Indices, Indices, Array]:
+    """Samples, branches and swivel angles worth trying."""
+    spherical = intervals.curves[0].spherical
+    around = swivel_of_postures(spherical, line, reference[further]).psi[:, None] + np.linspace(
+        -_AROUND, _AROUND, _TRIED
+    )
+    samples, branches, angles = [], [], []
+    for branch in (before, after):
+        exact = _of_first_angles(further, branch, line, intervals)
+        psi = np.hstack([around, np.where(np.isnan(exact), around[:, :1], exact)])
+        samples.append(np.repeat(further, psi.shape[1]))
+        branches.append(np.repeat(branch, psi.shape[1]))
+        angles.append(psi.ravel())
+    return np.concatenate(samples), np.concatenate(branches), np.concatenate(angles)
+
+
+def _of_first_angles(further: Indices, branch: Indices, line: Array, intervals: FeasibleIntervals) -> Array:
+    """Swivel angles at which the first angle of shoulder or wrist is that of the line, shape (k, 4)."""
+    found = np.full((len(further), 4), np.nan)
+    for curve, side in zip(intervals.curves, (1, -1), strict=True):
+        rows = np.flatnonzero(intervals.branches[branch, 0] == side)
+        for i, triple in enumerate(curve.triples):
+            C = curve.parts[further[rows], i]
+            angle = line[rows, triple.first, None]
+            found[rows, 2 * i : 2 * i + 2] = zeros(np.sin(angle) * C[:, :, 2] - np.cos(angle) * C[:, :, 5])
+    return found

@@ -1,0 +1,43 @@
+"""Which samples the global search looks at."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armik_sym.motion.hand_path import HandPath
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+# Between two knots the hand turns and shifts, relative to the arm's length, by this much at most …
+_HAND_MOTION = 0.15
+# … and this much time passes, in [s].
+_TIME = 0.15
+_FEWEST = 12
+
+
+def knots(path: HandPath, reach: float) -> Indices:
+    """Samples spread so that the hand moves about as far between any two neighbours.
+
+    Args:
+        path: The hand path, with rotations.
+        reach: Length of the arm, in [m].
+
+    Returns:
+        Increasing indices, the first and the last sample among them, shape (m,).
+
+    Source:
+        None (this package).
+    """
+    n = len(path)
+    shift = np.linalg.norm(np.diff(path.position, axis=0), axis=1) / reach
+    turn = np.zeros(n - 1)
+    if path.rotation is not None:
+        away = np.linalg.norm(np.diff(path.rotation, axis=0), axis=(1, 2))  # 2·√2·sin(angle/2)
+        turn = 2 * np.arcsin(np.minimum(away / np.sqrt(8), 1.0))
+    effort = np.maximum((shift + turn) / _HAND_MOTION, np.diff(path.time) / _TIME)
+    covered = np.concatenate([[0.0], np.cumsum(effort)])
+    count = int(min(n - 1, max(np.ceil(covered[-1]), _FEWEST)))
+    even = np.linspace(0.0, covered[-1], count + 1)
+    return np.unique(np.concatenate([[0], np.searchsorted(covered, even[1:-1]), [n - 1]])).astype(np.int64)

@@ -1,0 +1,1 @@
+"""The trajectory problem in one unknown per sample: the swivel angle."""

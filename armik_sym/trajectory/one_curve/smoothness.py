@@ -1,0 +1,76 @@
+"""The quadratic objective as a sum of squares, three weights per sample."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from armik_sym.trajectory.rates import smoothness_rows
+
+Array = NDArray[np.float64]
+
+# At high sampling rates second differences weigh 1/h³: brought back to the size IPOPT's own constants are
+# made for. A factor on the objective changes no optimum.
+_LARGEST_CURVATURE = 1e4
+
+
+@dataclass(frozen=True, eq=False)
+class Smoothness:
+    """½ Σ |speed_k (q_{k+1} - q_k)|² + |Σ_i bend_ki q_{k+i}|² + |hold_k (q_k - aim_k)|².
+
+    Attributes:
+        speed: Shape (n - 1,).
+        bend: Shape (max(n - 2, 0), 3).
+        hold: Shape (n,).
+        aim: Where the posture is drawn to, shape (n, dof), in [rad].
+        scale: Factor by which the user's objective was multiplied to get here.
+    """
+
+    speed: Array
+    bend: Array
+    hold: Array
+    aim: Array
+    scale: float = 1.0
+
+    def matrix(self) -> sp.csr_array:
+        """S with the objective ½ |S q - b|², where b is `hold`·`aim` in the last n rows.
+
+        Returns:
+            Sparse matrix of shape (n - 1 + max(n - 2, 0) + n, n).
+
+        Source:
+            None (bookkeeping).
+        """
+        n = len(self.hold)
+        rows = [sp.diags_array([-self.speed, self.speed], offsets=[0, 1], shape=(n - 1, n))]
+        if n >= 3:
+            rows.append(sp.diags_array(list(self.bend.T), offsets=[0, 1, 2], shape=(n - 2, n)))
+        return sp.csr_array(sp.vstack([*rows, sp.diags_array(self.hold)]))
+
+
+def smoothness(time: Array, weights: tuple[float, float, float], aim: Array) -> Smoothness:
+    """The objective of a path's samples.
+
+    Args:
+        time: Time stamps, shape (n,), in [s].
+        weights: Of squared speed, of squared acceleration [s²], of the squared distance from `aim` [1/s²].
+        aim: Where the posture is drawn to, shape (dof,), in [rad].
+
+    Returns:
+        The objective, scaled.
+
+    Source:
+        None (`rates.smoothness_rows`).
+    """
+    n = len(time)
+    S = smoothness_rows(time, *weights)
+    speed = S[: n - 1].diagonal(1)
+    bent = S[n - 1 : 2 * n - 3] if n >= 3 else sp.csr_array((0, n))
+    bend = np.column_stack([bent.diagonal(i) for i in range(3)]) if n >= 3 else np.zeros((0, 3))
+    largest = float(sp.csr_array(S.T @ S).diagonal().max())
+    scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, largest)
+    r = np.sqrt(scale)
+    return Smoothness(r * speed, r * bend, r * S[-n:].diagonal(), np.tile(aim, (n, 1)), scale)
