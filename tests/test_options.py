@@ -19,7 +19,8 @@ from armik_sym.trajectory.options import TrajectoryOptions
 
 ARM = ARMS["human"]
 WEIGHTS = ("speed_weight", "acceleration_weight", "posture_weight", "clearance_weight", "prefer_weight")
-POSITIVE = ("position_sigma", "rotation_sigma", "max_iterations", "position_tolerance", "rotation_tolerance")
+POSITIVE = ("position_sigma", "rotation_sigma", "start_tolerance", "position_tolerance", "rotation_tolerance")
+COUNTS = ("max_iterations", "n_best")
 
 
 @pytest.mark.parametrize("name", WEIGHTS + POSITIVE)
@@ -43,13 +44,30 @@ def test_zero_weights_are_fine(name):
 
 @pytest.mark.parametrize("kind", [np.float32, np.float64, np.int64, int])
 def test_numpy_numbers_are_numbers(kind):
-    for name in WEIGHTS + POSITIVE:
+    for name in WEIGHTS + POSITIVE + COUNTS:
         assert getattr(TrajectoryOptions(**{name: kind(2)}), name) == 2
 
 
-def test_iterations_are_whole():
-    with pytest.raises(OptionError, match=r"max_iterations is 2\.5, expected a whole number"):
-        TrajectoryOptions(max_iterations=2.5)
+@pytest.mark.parametrize("name", COUNTS)
+@pytest.mark.parametrize(
+    "value", [2.5, 0.5, np.float64(1.25), 0, -3, math.nan, math.inf, "2", True, [1], None]
+)
+def test_counts_are_whole_and_at_least_one(name, value):
+    with pytest.raises(OptionError, match=rf"{name} is .*, expected a whole number ≥ 1") as caught:
+        TrajectoryOptions(**{name: value})
+    assert repr(value) in str(caught.value)
+
+
+@pytest.mark.parametrize("value", [2, 2.0, np.float32(2), np.int64(2)])
+def test_counts_end_as_int(value):
+    for name in COUNTS:
+        assert type(getattr(TrajectoryOptions(**{name: value}), name)) is int
+
+
+@pytest.mark.parametrize("value", ["Auto", "map", "", None, True, "full_space"])
+def test_search_lists_the_valid_words(value):
+    with pytest.raises(OptionError, match="valid are auto, swivel, full-space"):
+        TrajectoryOptions(search=value)
 
 
 @pytest.mark.parametrize("value", ["Exact", "", None, True])

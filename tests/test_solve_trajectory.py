@@ -23,6 +23,9 @@ WEIGHTS = (
 )
 
 
+BOTH = pytest.mark.parametrize("search", ["swivel", "full-space"])
+
+
 def no_worse_than(solution, q):
     mine, other = (
         objective(solution.time, motion, solution.arm.rom.middle, WEIGHTS) for motion in (solution.q, q)
@@ -40,21 +43,26 @@ def free():
     return free_solve()
 
 
-@pytest.mark.parametrize("orientation", ["full", "pointing", "none"])
+@pytest.mark.parametrize(
+    ("orientation", "search"),
+    [("full", "swivel"), ("full", "full-space"), ("pointing", "full-space"), ("pointing", "auto")]
+    + [("none", "full-space"), ("none", "auto")],
+)
 @pytest.mark.parametrize(("name", "seed"), [("ehmcs", 1), ("human", 0), ("alfaiz", 2)])
 def test_every_arm_and_orientation_is_exact_inside_limits_and_no_worse_than_the_motion(
-    name, seed, orientation
+    name, seed, orientation, search
 ):
     path, q = smooth_path(ARMS[name], N, seed)
-    solution = check(ak.solve(ARMS[name], path, orientation=orientation))
+    solution = check(ak.solve(ARMS[name], path, orientation=orientation, search=search))
     assert solution.orientation.value == orientation
     no_worse_than(solution, q)
 
 
+@BOTH
 @pytest.mark.parametrize("name", ak.task_names())
-def test_bundled_tasks(name):
+def test_bundled_tasks(name, search):
     task = ak.load_task(name)
-    solution = check(ak.solve(EHMCS, task.path))
+    solution = check(ak.solve(EHMCS, task.path, search=search))
     assert np.all(solution.max_speed <= TrajectoryOptions.max_speed)
     no_worse_than(solution, task.measured.q)
 
@@ -71,33 +79,38 @@ def test_arm_with_sliding_joints_follows_positions():
     no_worse_than(check(ak.solve(arm, path, orientation="none")), q)
 
 
-@pytest.mark.parametrize("orientation", ["full", "none"])
-def test_motion_that_touches_both_limits_of_every_joint(orientation):
+@pytest.mark.parametrize(
+    ("orientation", "search"), [("full", "swivel"), ("full", "full-space"), ("none", "auto")]
+)
+def test_motion_that_touches_both_limits_of_every_joint(orientation, search):
     q = smooth_angles(EHMCS, N, seed=1)
     tight = EHMCS.with_rom(q.min(axis=0), q.max(axis=0))
-    solution = check(ak.solve(tight, path_of(EHMCS, q), orientation=orientation))
+    solution = check(ak.solve(tight, path_of(EHMCS, q), orientation=orientation, search=search))
     assert np.all(solution.rom_margin >= 0)
     no_worse_than(solution, q)
 
 
 @pytest.mark.parametrize(
-    ("joints", "orientation"), [([2], "full"), ([5, 6], "full"), ([5, 6], "none"), ([0, 4], "none")]
+    ("joints", "orientation", "search"),
+    [([2], "full", "full-space"), ([5, 6], "full", "full-space"), ([2], "full", "swivel")]
+    + [([5, 6], "full", "swivel"), ([5, 6], "none", "auto"), ([0, 4], "none", "auto")],
 )
-def test_joints_locked_by_a_range_of_zero_width_stay_exactly_where_they_are(joints, orientation):
+def test_joints_locked_by_a_range_of_zero_width_stay_exactly_where_they_are(joints, orientation, search):
     lower, upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()
     lower[joints] = upper[joints] = EHMCS.rom.middle[joints] + 0.1
     locked = EHMCS.with_rom(lower, upper)
     path, _ = smooth_path(locked, N, seed=4)
-    solution = check(ak.solve(locked, path, orientation=orientation))
+    solution = check(ak.solve(locked, path, orientation=orientation, search=search))
     assert np.all(solution.q[:, joints] == lower[joints])
     assert np.all(solution.rom_margin[joints] == 0)
 
 
-def test_time_stamps_are_respected():
+@BOTH
+def test_time_stamps_are_respected(search):
     q = smooth_angles(EHMCS, N, seed=1)
     path = path_of(EHMCS, q, uneven_time(N, 0))
     even = HandPath(np.linspace(0, 4, N), path.position, path.rotation)
-    uneven, regular = check(ak.solve(EHMCS, path)), check(ak.solve(EHMCS, even))
+    uneven, regular = (check(ak.solve(EHMCS, each, search=search)) for each in (path, even))
     no_worse_than(uneven, q)
     no_worse_than(uneven, regular.q)
     assert np.abs(uneven.q - regular.q).max() > 1e-4
@@ -142,22 +155,24 @@ def test_a_very_small_speed_limit_holds_as_exactly(free):
     assert 0.99 * limit < solution.max_speed.max() <= limit
 
 
-def test_a_start_on_the_path_is_kept(reference):
+@BOTH
+def test_a_start_on_the_path_is_kept(reference, search):
     path, q, _ = reference
-    solution = check(ak.solve(EHMCS, path, start=q[0]))
+    solution = check(ak.solve(EHMCS, path, start=q[0], search=search))
     assert np.abs(solution.q[0] - q[0]).max() < 1e-9
 
 
+@BOTH
 @pytest.mark.parametrize("far", [False, True])
-def test_a_start_beside_the_path_leads_to_a_posture_on_it(reference, far):
+def test_a_start_beside_the_path_leads_to_a_posture_on_it(reference, far, search):
     path, q, _ = reference
     start = EHMCS.rom.lower if far else q[0] + 0.02
-    solution = ak.solve(EHMCS, path, start=start, max_speed=None)
+    solution = ak.solve(EHMCS, path, start=start, max_speed=None, search=search)
     assert not solution.ok
     assert "start posture does not put the hand on the path" in solution.reasons[0]
     assert np.array_equal(solution.start, start)
     gap = np.abs(solution.q[0] - start).max()
-    check(ak.solve(EHMCS, path, start=start, max_speed=None, start_tolerance=gap + 1e-9))
+    check(ak.solve(EHMCS, path, start=start, max_speed=None, start_tolerance=gap + 1e-9, search=search))
     assert far or gap < 0.2
 
 
@@ -168,46 +183,53 @@ def test_soft_tracking_begins_with_the_start_posture_itself(reference):
     assert np.array_equal(solution.q[0], start)
 
 
+@BOTH
 @pytest.mark.parametrize(("rate", "n"), [(1000, 1000), (5000, 1000)])
-def test_controller_rates_are_solved(rate, n):
+def test_controller_rates_are_solved(rate, n, search):
     time = np.arange(n) / rate
     waves = np.sin(2 * np.pi * np.linspace(0.4, 1.0, 7) * time[:, None] + np.arange(7))
     q = EHMCS.rom.middle + 0.25 * np.minimum(EHMCS.rom.width, 2.0) * waves
     position, rotation = hand_pose(EHMCS.chain, q, EHMCS.lengths)
-    check(ak.solve(EHMCS, HandPath(time, position, rotation), seed=0))
+    check(ak.solve(EHMCS, HandPath(time, position, rotation), seed=0, search=search))
 
 
+@BOTH
 @pytest.mark.parametrize("gap", [1e-4, 1e-6, 1e-8])
-def test_time_stamps_that_nearly_coincide_do_no_harm(gap):
+def test_time_stamps_that_nearly_coincide_do_no_harm(gap, search):
     time = np.arange(100) / 100
     time[50] = time[49] + gap
     waves = np.sin(2 * np.pi * np.linspace(0.4, 1.0, 7) * time[:, None] + np.arange(7))
     q = EHMCS.rom.middle + 0.25 * np.minimum(EHMCS.rom.width, 2.0) * waves
     position, rotation = hand_pose(EHMCS.chain, q, EHMCS.lengths)
-    check(ak.solve(EHMCS, HandPath(time, position, rotation)))
+    check(ak.solve(EHMCS, HandPath(time, position, rotation), search=search))
 
 
+@BOTH
 @pytest.mark.parametrize("chosen", [[0, 12], [0, 8, 20]])
-def test_shortest_paths(reference, chosen):
+def test_shortest_paths(reference, chosen, search):
     path = reference[0]
     short = HandPath(path.time[chosen], path.position[chosen], path.rotation[chosen])
-    solution = check(ak.solve(EHMCS, short))
+    solution = check(ak.solve(EHMCS, short, search=search))
     assert solution.q.shape == (len(chosen), 7)
 
 
-@pytest.mark.parametrize("tracking", ["exact", "soft"])
-def test_same_seed_same_angles(reference, tracking):
+@pytest.mark.parametrize(
+    ("tracking", "search"),
+    [("exact", "swivel"), ("exact", "full-space"), ("soft", "auto"), ("soft", "full-space")],
+)
+def test_same_seed_same_angles(reference, tracking, search):
     path = reference[0]
-    first, second = (ak.solve(EHMCS, path, seed=5, tracking=tracking) for _ in range(2))
+    first, second = (ak.solve(EHMCS, path, seed=5, tracking=tracking, search=search) for _ in range(2))
     assert np.array_equal(first.q, second.q)
     assert first.seed == 5
 
 
 @needs_cc
-def test_virtual_machine_and_compiled_code_agree(reference):
+@pytest.mark.parametrize(("search", "close"), [("swivel", 1e-9), ("full-space", 1e-6)])
+def test_virtual_machine_and_compiled_code_agree(reference, search, close):
     path, _, _ = reference
-    c, vm = (check(ak.solve(EHMCS, path, backend=backend)) for backend in ("c", "vm"))
-    assert np.abs(c.q - vm.q).max() < 1e-6
+    c, vm = (check(ak.solve(EHMCS, path, backend=backend, search=search)) for backend in ("c", "vm"))
+    assert np.abs(c.q - vm.q).max() < close
 
 
 @needs_cc
@@ -235,20 +257,24 @@ def test_other_lengths_and_other_path_lengths_compile_nothing(tmp_path, monkeypa
         stage_functions._program.cache_clear()
 
 
-def test_nothing_is_printed_unless_asked_for(capfd):
+@BOTH
+def test_nothing_is_printed_unless_asked_for(capfd, search):
     lower, upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()
     lower[5:] = upper[5:] = 0.0
     locked = EHMCS.with_rom(lower, upper)
     path, _ = smooth_path(locked, 8, seed=1)
-    ak.solve(locked, path)  # fewer free variables than equations: CasADi would warn
+    ak.solve(locked, path, search=search)  # fewer free variables than equations: CasADi would warn
+    ak.solve(EHMCS, smooth_path(EHMCS, 8, seed=1)[0], search=search)
+    with pytest.raises(UnreachablePathError):
+        ak.solve(locked, smooth_path(EHMCS, 8, seed=1)[0], search=search)
     far = HandPath([0.0, 1.0], [[1.0, 0, 0], [1.1, 0, 0]])
     with pytest.raises(UnreachablePathError):
         ak.solve(EHMCS, far)
     ak.solve(EHMCS, far, tracking="soft")
     with pytest.raises(SolverError):
-        ak.solve(EHMCS, smooth_path(EHMCS, 8, seed=1)[0], max_iterations=1)
+        ak.solve(EHMCS, smooth_path(EHMCS, 8, seed=1)[0], max_iterations=1, search="full-space")
     assert capfd.readouterr() == ("", "")
-    ak.solve(locked, path, ipopt_output=True)
+    ak.solve(EHMCS, smooth_path(EHMCS, 8, seed=1)[0], ipopt_output=True, search=search)
     assert "Number of Iterations" in capfd.readouterr().out
 
 
@@ -306,6 +332,7 @@ def test_soft_tracking_keeps_rate_limits(free):
     assert solution.max_speed.max() > 0.99 * limit
 
 
-def test_without_any_weight_a_feasible_motion_is_found(reference):
+@BOTH
+def test_without_any_weight_a_feasible_motion_is_found(reference, search):
     weights = dict.fromkeys(("speed_weight", "acceleration_weight", "posture_weight"), 0.0)
-    check(ak.solve(EHMCS, reference[0], max_speed=None, **weights))
+    check(ak.solve(EHMCS, reference[0], max_speed=None, search=search, **weights))

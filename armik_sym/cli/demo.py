@@ -55,6 +55,7 @@ def demo(
                 data_formats=(".csv",),
                 measured=task.measured,
                 title=task.title,
+                backend=chosen_backend,
             )
             solved.append((task, solution))
             progress.finish()
@@ -74,4 +75,7 @@ def _report(solved: list[tuple[Task, Solution]], out: Path) -> None:
         for reason in solution.reasons:
             say(f"{task.name}: {reason}")
     say(_ABOUT)
-    say(f"Written to {out}: <task>_solution.csv, <task>_joints.png and <task>_hand.png of every task.")
+    say(
+        f"Written to {out}: <task>_solution.csv, <task>_joints.png, <task>_hand.png and "
+        "<task>_swivel_map.png of every task."
+    )

@@ -86,7 +86,9 @@ def as_typed(text: str) -> str:
     Source:
         None (command line).
     """
-    text = re.sub(r"""\b(tracking|orientation)=["'](\w+)["']""", r"--\1 \2", text)
+    text = re.sub(r"""\b(tracking|orientation|search)=["']([\w-]+)["']""", r"--\1 \2", text)
+    text = re.sub(r"\bn_best=(\d+)", r"--n-best \1", text)
+    text = re.sub(r"\bn_best\b", "--n-best", text)
     return re.sub(r"\b(max)_(speed|acceleration)\b", r"--\1-\2", text)
 
 

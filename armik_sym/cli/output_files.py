@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from armik_sym.errors import OptionError
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from armik_sym.compiled.backend import Backend
     from armik_sym.motion.joint_motion import JointMotion
     from armik_sym.solution import Solution
 
@@ -44,8 +47,9 @@ def write_results(
     data_formats: tuple[str, ...],
     measured: JointMotion | None = None,
     title: str | None = None,
+    backend: Backend = "auto",
 ) -> list[Path]:
-    """Write a solution as data files and figures.
+    """Write a solution and its alternatives as data files and figures.
 
     Args:
         solution: The solution.
@@ -54,9 +58,12 @@ def write_results(
         data_formats: Endings of the data files, for example ".csv".
         measured: Measured motion to draw beside it, or None.
         title: What the motion is, for the figures.
+        backend: "auto", "c" or "vm", for the swivel map.
 
     Returns:
-        The files written: `<stem>_solution.<ending>`, `<stem>_joints.png`, `<stem>_hand.png`.
+        The files written: `<stem>_solution.<ending>`, `<stem>_joints.png`, `<stem>_hand.png`; for full poses
+        of an arm that has a swivel map `<stem>_swivel_map.png`; for the second-best trajectory
+        `<stem>_solution_2.<ending>` and `<stem>_joints_2.png`, and so on.
 
     Raises:
         MotionFileError: If a file cannot be written.
@@ -66,9 +73,32 @@ def write_results(
     """
     from armik_sym.report import hand_path_figure, save_figure, solution_figure
 
-    written = [solution.save(folder / f"{stem}_solution{ending}") for ending in data_formats]
-    joints = solution_figure(solution, measured, title=title)
-    written.append(save_figure(joints, folder / f"{stem}_joints.png"))
+    written = []
+    for number, each in enumerate((solution, *solution.alternatives), start=1):
+        rank = f"_{number}" if number > 1 else ""
+        about = f"{title}, choice {number}" if title and number > 1 else title
+        written += [each.save(folder / f"{stem}_solution{rank}{ending}") for ending in data_formats]
+        joints = solution_figure(each, measured, title=about)
+        written.append(save_figure(joints, folder / f"{stem}_joints{rank}.png"))
     hand = hand_path_figure(solution, title=title)
     written.append(save_figure(hand, folder / f"{stem}_hand.png"))
+    map_ = _swivel_map_figure(solution, measured, title, backend)
+    if map_ is not None:
+        written.append(save_figure(map_, folder / f"{stem}_swivel_map.png"))
     return written
+
+
+def _swivel_map_figure(
+    solution: Solution, measured: JointMotion | None, title: str | None, backend: Backend
+) -> Figure | None:
+    """The solution and its alternatives on their swivel map; None where there is no such map."""
+    from armik_sym.swivel.map import swivel_map
+    from armik_sym.swivel.spherical_arm import why_not_spherical
+    from armik_sym.symbolic import Orientation
+
+    if solution.orientation is not Orientation.FULL or why_not_spherical(solution.arm) is not None:
+        return None
+    others: dict[str, Any] = {} if measured is None else {"measured": measured}
+    others |= {f"choice {number}": each for number, each in enumerate(solution.alternatives, start=2)}
+    map_ = swivel_map(solution.arm, solution.path, backend=backend)
+    return map_.plot(solution, others, title=title)

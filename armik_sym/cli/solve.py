@@ -39,6 +39,16 @@ def solve(
     start: Annotated[
         str | None, typer.Option(help="Known first posture: degrees, separated by commas, one per joint.")
     ] = None,
+    search: Annotated[
+        str | None,
+        typer.Option(
+            help="Trajectory only: auto (the swivel map where it fits, else full space), swivel, full-space."
+        ),
+    ] = None,
+    n_best: Annotated[
+        int | None,
+        typer.Option(help="Trajectory only: how many different trajectories are wanted at most; default: 1."),
+    ] = None,
     set_: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help="Further option of the method (SI), repeatable."),
@@ -50,22 +60,28 @@ def solve(
     """Solve a hand path.
 
     Writes the joint angles (csv, npz) and figures (png), and prints what they are worth.
+    With --n-best, NAME_solution_2.csv and so on hold the next best trajectories.
 
     Exit code 0: ok; 1: solved, but not what was asked for; 2: error.
     """
     import armik_sym as ak
 
     chosen_backend = backend_name(backend)
-    only_for_trajectory(method, {"--tracking": tracking, "--max-acceleration": max_acceleration})
+    words = {"orientation": orientation, "tracking": tracking, "search": search, "n_best": n_best}
+    only_for_trajectory(
+        method,
+        {
+            "--tracking": tracking,
+            "--max-acceleration": max_acceleration,
+            "--search": search,
+            "--n-best": n_best,
+        },
+    )
     options: dict[str, Any] = {
         **settings(set_ or []),
         **rate("max_speed", max_speed),
         **rate("max_acceleration", max_acceleration),
-        **{
-            name: value
-            for name, value in (("orientation", orientation), ("tracking", tracking))
-            if value is not None
-        },
+        **{name: value for name, value in words.items() if value is not None},
     }
     model = ak.load_arm(arm)
     path = ak.read_path(file)
@@ -82,7 +98,14 @@ def solve(
             progress=progress,
             **options,
         )
-    written = write_results(solution, out, file.stem, data_formats=(".csv", ".npz"), title=file.name)
+    written = write_results(
+        solution,
+        out,
+        file.stem,
+        data_formats=(".csv", ".npz"),
+        title=file.name,
+        backend=chosen_backend,
+    )
     say(str(solution))
     say("  written         " + ", ".join(str(name) for name in written))
     if not solution.ok:

@@ -51,6 +51,8 @@ class Solution:
         sample_iterations: Iterations or generations a pointwise method spent on each sample, shape (n,), or
             None.
         settings: Options used, for the record.
+        cost: Value of the objective the method minimised, in [1/s]; None if it has none.
+        alternatives: Other trajectories that were asked for, by increasing cost.
 
     Raises:
         ShapeError: If `q` does not fit path and arm.
@@ -70,6 +72,8 @@ class Solution:
     reached: NDArray[np.bool_] | None = None
     sample_iterations: NDArray[np.int64] | None = None
     settings: Mapping[str, object] = field(default_factory=dict)
+    cost: float | None = None
+    alternatives: tuple[Solution, ...] = ()
 
     def __post_init__(self) -> None:
         q = np.array(self.q, dtype=np.float64)

@@ -19,7 +19,7 @@ def summary(solution: Solution) -> str:
         solution: The solution.
 
     Returns:
-        Text of five to a dozen lines.
+        Text of five to a dozen lines, one more for each alternative.
 
     Source:
         None (reporting).
@@ -47,5 +47,23 @@ def _lines(s: Solution) -> list[str]:
         f"  solver          {s.status}, {s.iterations} iterations; build {s.timing.build:.2g} s, "
         f"compile {s.timing.compile:.2g} s, solve {s.timing.solve:.2g} s",
     ]
+    if s.cost is not None:
+        lines.append(f"  cost            {s.cost:.6g} 1/s")
+    lines += _other_choices(s)
     lines += [f"  because         {reason}" for reason in s.reasons]
+    return lines
+
+
+def _other_choices(s: Solution) -> list[str]:
+    """One line for every alternative: what it costs, and by how much and where it differs from the best."""
+    names, units = s.arm.joint_names, joint_units(s.arm)
+    lines = []
+    for number, other in enumerate(s.alternatives, start=2):
+        away = np.abs(other.q - s.q).max(axis=0)
+        widest, tightest = int(np.argmax(away)), int(np.argmin(other.rom_margin))
+        cost = "" if other.cost is None else f"cost {other.cost:.6g} 1/s, "
+        differs = f"differs by up to {units[widest].text(away[widest])} ({names[widest]})"
+        margin = f"margin {units[tightest].text(other.rom_margin[tightest])} ({names[tightest]})"
+        against = "" if other.ok else f", NOT ok: {'; '.join(other.reasons)}"
+        lines.append(f"  choice {number:<8d} {cost}{differs}, {margin}{against}")
     return lines

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 from armik_sym.compiled.backend import Backend
 from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
-from armik_sym.swivel.limit_cuts import joint_coefficients, zeros
+from armik_sym.swivel.limit_cuts import joint_coefficients, wrapped, zeros
 from armik_sym.swivel.postures_at import postures_at
 
 Array = NDArray[np.float64]
 
 # How far the ends stay away from the cut, in [rad].
 _INSET = 1e-9
-# How far on both sides the joint is looked at to see whether it jumps, in [rad].
-_PROBE = 1e-7
+# Sine of the middle angle below which the outer joints have no angle of their own.
+_POLE = 1e-10
 
 
 def split_at_full_turns(intervals: FeasibleIntervals, backend: Backend = "auto") -> FeasibleIntervals:
@@ -57,12 +57,12 @@ def split_at_full_turns(intervals: FeasibleIntervals, backend: Backend = "auto")
         inside = psi < intervals.end[:, None]
         row, which = np.nonzero(inside)
         at = psi[row, which]
-        beside = [
-            postures_at(curves, intervals.sample[row], intervals.branch[row], at + d, backend=backend).q
-            for d in (-_PROBE, _PROBE)
-        ]
+        there = postures_at(curves, intervals.sample[row], intervals.branch[row], at, backend=backend)
         j = triple.first + k
-        jumps = np.abs(beside[1][:, j] - beside[0][:, j]) > 0.5 * TURN
+        # The roots are also those of the angle half a turn away, where nothing jumps.
+        jumps = np.abs(wrapped(np.mod(there.q[:, j] - rom.lower[j], TURN))) < 0.25 * TURN
+        if k != 1:
+            jumps &= (there.wrist_sine if i else there.shoulder_sine) > _POLE
         rows.append(row[jumps])
         cuts.append(at[jumps])
     row, cut = np.concatenate(rows), np.concatenate(cuts)
@@ -77,17 +77,19 @@ def _cut(intervals: FeasibleIntervals, row: NDArray[np.int64], cut: Array) -> Fe
     cut_rows[row] = True
     kept = np.flatnonzero(~(whole & cut_rows))  # a whole circle begins at its first cut
     of = np.concatenate([kept, row])
-    start = np.concatenate([intervals.start[kept], cut + _INSET])
+    start = np.concatenate([intervals.start[kept], cut])
     order = np.lexsort((start, of))
     of, start = of[order], start[order]
     last = np.append(of[1:] != of[:-1], True)
-    first = np.searchsorted(of, of)
-    final = np.where((whole & cut_rows)[of], start[first] - 2 * _INSET + TURN, intervals.end[of])
-    end = np.where(last, final, np.append(start[1:] - 2 * _INSET, 0.0))
+    turned = (whole & cut_rows)[of]
+    final = np.where(turned, start[np.searchsorted(of, of)] + TURN, intervals.end[of])
+    end = np.where(last, final, np.append(start[1:], 0.0))
+    inset = np.minimum(_INSET, 0.25 * (end - start))
+    at_cut = np.concatenate([np.zeros(len(kept), dtype=np.bool_), np.ones(len(cut), dtype=np.bool_)])[order]
     return replace(
         intervals,
         sample=intervals.sample[of],
         branch=intervals.branch[of],
-        start=start,
-        end=np.maximum(end, start),
+        start=start + np.where(at_cut, inset, 0.0),
+        end=end - np.where(~last | turned, inset, 0.0),
     )

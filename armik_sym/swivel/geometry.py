@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,6 +26,7 @@ BEFORE_WRIST = (28, 37)  # from the frame of the forearm to `before` of the wris
 AFTER_WRIST = (37, 46)  # `after` of the wrist in the hand frame
 
 
+@functools.lru_cache(maxsize=64)
 def pose_geometry(spherical: SphericalArm) -> Array:
     """The numbers for poses of the hand: the point to be reached is the wrist.
 
@@ -47,6 +50,7 @@ def pose_geometry(spherical: SphericalArm) -> Array:
     row[slice(*WRIST_IN_HAND)] = lines.rotation.T @ (wrist.centre - lines.position)
     row[slice(*BEFORE_WRIST)] = (wrist.before.T @ frame).ravel()
     row[slice(*AFTER_WRIST)] = (lines.rotation.T @ wrist.after).ravel()
+    row.flags.writeable = False  # the same row serves every caller
     return np.asarray(row)
 
 

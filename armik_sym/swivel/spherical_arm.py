@@ -7,6 +7,7 @@ that is looked at.
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,6 +62,7 @@ class SphericalArm:
         return np.asarray(self.upper_arm / np.linalg.norm(self.upper_arm))
 
 
+@functools.lru_cache(maxsize=64)
 def recognise(arm: Arm) -> SphericalArm:
     """The spherical shoulder, hinge elbow and spherical wrist of an arm.
 

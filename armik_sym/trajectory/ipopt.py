@@ -133,28 +133,28 @@ def run_ipopt(
     """
     ctrl_c = InterruptWatch()
     watch = _Watch(len(x0), bounds, report, ctrl_c)
-    solver = ca.nlpsol(
-        "trajectory",
-        "ipopt",
-        {"x": problem.x, "f": problem.f, "g": problem.g},
-        {
-            "grad_f": problem.gradient,
-            "jac_g": problem.jacobian,
-            "hess_lag": problem.hessian,
-            "iteration_callback": watch,
-            "print_time": False,
-            "no_nlp_grad": True,
-            "calc_lam_p": False,
-            "error_on_fail": False,
-            "record_time": False,
-            # Bounds are made here and sound; the check would print where joints of zero range leave fewer
-            # variables than equations, which IPOPT can handle.
-            "inputs_check": False,
-            "ipopt": {**_settings(problem.scale, max_iterations, output), **(settings or {})},
-        },
-    )
     try:
         with ctrl_c:
+            solver = ca.nlpsol(
+                "trajectory",
+                "ipopt",
+                {"x": problem.x, "f": problem.f, "g": problem.g},
+                {
+                    "grad_f": problem.gradient,
+                    "jac_g": problem.jacobian,
+                    "hess_lag": problem.hessian,
+                    "iteration_callback": watch,
+                    "print_time": False,
+                    "no_nlp_grad": True,
+                    "calc_lam_p": False,
+                    "error_on_fail": False,
+                    "record_time": False,
+                    # Bounds are made here and sound; the check would print where joints of zero range leave fewer
+                    # variables than equations, which IPOPT can handle.
+                    "inputs_check": False,
+                    "ipopt": {**_settings(problem.scale, max_iterations, output), **(settings or {})},
+                },
+            )
             found = solver(x0=x0, lbx=bounds.lbx, ubx=bounds.ubx, lbg=bounds.lbg, ubg=bounds.ubg)
     except RuntimeError:
         if watch.interruption is None:

@@ -12,7 +12,7 @@ from armik_sym.compiled.c_source import c_function
 from armik_sym.compiled.library_source import PRELUDE
 from armik_sym.trajectory.one_curve.stage import SIZE, curve_functions
 
-_LOOPS = ("curve_objective.h", "curve_descent.h", "shortest_path.h")
+_LOOPS = ("curve_objective.h", "curve_descent.h", "shortest_path.h", "smoothest_path.h")
 
 
 @dataclass(frozen=True, eq=False)

@@ -64,6 +64,10 @@ class TrajectoryOptions:
             tracking, 5° for soft.
         start_tolerance: Difference between a given start posture and the first posture, joint by joint, up
             to which the solution calls itself ok, in [rad].
+        search: "auto" (the swivel map where it fits, otherwise full space), "swivel" (insist on the map) or
+            "full-space".
+        n_best: How many genuinely different trajectories are wanted at most, the best first: other
+            corridors of the swivel map or other branches. The others are `Solution.alternatives`.
         max_iterations: IPOPT iterations per attempt.
         ipopt_output: Let IPOPT print its iterations.
 
@@ -87,20 +91,25 @@ class TrajectoryOptions:
     position_tolerance: float | None = None
     rotation_tolerance: float | None = None
     start_tolerance: float = math.radians(1.0)
+    search: Literal["auto", "swivel", "full-space"] = "auto"
+    n_best: int = 1
     max_iterations: int = 300
     ipopt_output: bool = False
 
     def __post_init__(self) -> None:
         if self.tracking not in ("exact", "soft"):
             raise OptionError(f"tracking is {self.tracking!r}: valid are exact, soft")
+        if self.search not in ("auto", "swivel", "full-space"):
+            raise OptionError(f"search is {self.search!r}: valid are auto, swivel, full-space")
         for name in _WEIGHTS:
             _check(name, getattr(self, name), zero=True)
         check_clearance(self.clearance)
         check_preference(self.prefer)
-        for name in ("position_sigma", "rotation_sigma", "start_tolerance", "max_iterations"):
+        for name in ("position_sigma", "rotation_sigma", "start_tolerance"):
             _check(name, getattr(self, name), zero=False)
-        if self.max_iterations != int(self.max_iterations):
-            raise OptionError(f"max_iterations is {self.max_iterations!r}, expected a whole number")
+        for name in ("max_iterations", "n_best"):
+            _check_count(name, getattr(self, name))
+            object.__setattr__(self, name, int(getattr(self, name)))  # 2.0 is a count, too
         for name in ("position_tolerance", "rotation_tolerance"):
             if getattr(self, name) is not None:
                 _check(name, getattr(self, name), zero=False)
@@ -119,7 +128,14 @@ class TrajectoryOptions:
 
 
 def _check(name: str, value: float, *, zero: bool) -> None:
-    number = isinstance(value, numbers.Real) and not isinstance(value, bool)
-    good = number and math.isfinite(value) and (value >= 0 if zero else value > 0)
-    if not good:
+    if not (_is_finite(value) and (value >= 0 if zero else value > 0)):
         raise OptionError(f"{name} is {value!r}, expected a finite number {'≥' if zero else '>'} 0")
+
+
+def _check_count(name: str, value: float) -> None:
+    if not (_is_finite(value) and value >= 1 and value == int(value)):
+        raise OptionError(f"{name} is {value!r}, expected a whole number ≥ 1")
+
+
+def _is_finite(value: object) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)

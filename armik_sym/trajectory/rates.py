@@ -94,7 +94,32 @@ def smoothness_rows(
 ) -> sp.csr_array:
     """S with SᵀS = K of `smoothness_matrix`: the objective as a sum of squares, which rounding spares.
 
-    Rows √(w_v h_k)·(D q)_k, then √(w_a s_k)·(D2 q)_k, then √(w_p d_k)·q_k.
+    Args:
+        time: As for `smoothness_matrix`, in [s].
+        speed_weight: As for `smoothness_matrix`.
+        acceleration_weight: As for `smoothness_matrix`, in [s²].
+        posture_weight: As for `smoothness_matrix`, in [1/s²].
+
+    Returns:
+        The rows of `smoothness_weights`, one kind after the other, shape (n - 1 + max(n - 2, 0) + n, n).
+
+    Source:
+        None (this package).
+    """
+    n = len(time)
+    speed, bend, hold = smoothness_weights(time, speed_weight, acceleration_weight, posture_weight)
+    rows = [sp.diags_array([-speed, speed], offsets=[0, 1], shape=(n - 1, n))]
+    if n >= 3:
+        rows.append(sp.diags_array(list(bend.T), offsets=[0, 1, 2], shape=(n - 2, n)))
+    return sp.csr_array(sp.vstack([*rows, sp.diags_array(hold)]))
+
+
+def smoothness_weights(
+    time: Array, speed_weight: float, acceleration_weight: float, posture_weight: float
+) -> tuple[Array, Array, Array]:
+    """The three kinds of squares of the objective.
+
+    √(w_v/h_k)·(q_{k+1} - q_k);  √(w_a s_k)·(D2 q)_k as three factors of q_k, q_{k+1}, q_{k+2};  √(w_p d_k)·q_k.
 
     Args:
         time: As for `smoothness_matrix`, in [s].
@@ -103,19 +128,14 @@ def smoothness_rows(
         posture_weight: As for `smoothness_matrix`, in [1/s²].
 
     Returns:
-        Shape (n - 1 + max(n - 2, 0) + n, n).
+        Factors, shapes (n - 1,), (max(n - 2, 0), 3) and (n,).
 
     Source:
         None (this package).
     """
-    n = len(time)
     spacing = np.diff(time)
-    spaced = np.concatenate([[0.0], np.cumsum(np.maximum(spacing, _NEAREST * np.median(spacing)))])
-    rows = [
-        sp.diags_array(np.sqrt(speed_weight * np.diff(spaced))) @ speed_matrix(spaced),
-        sp.diags_array(np.sqrt(posture_weight * sample_durations(time))),
-    ]
-    if n >= 3:
-        weights = np.sqrt(acceleration_weight * 0.5 * (spaced[2:] - spaced[:-2]))
-        rows.insert(1, sp.diags_array(weights) @ acceleration_matrix(spaced))
-    return sp.csr_array(sp.vstack(rows))
+    h = np.maximum(spacing, _NEAREST * np.median(spacing)) if spacing.size else spacing
+    share = 0.5 * (h[:-1] + h[1:])
+    factor = np.sqrt(acceleration_weight / share)
+    bend = np.column_stack([factor / h[:-1], -factor * (1 / h[:-1] + 1 / h[1:]), factor / h[1:]])
+    return np.sqrt(speed_weight / h), bend, np.sqrt(posture_weight * sample_durations(time))

@@ -72,9 +72,9 @@ class Reassigned:
     """Branches after samples beside poles were looked at again.
 
     Attributes:
-        branch: Branch of every sample, shape (n,).
-        psi: Swivel angle of the samples looked at, shape (n,), in [rad].
-        q: Posture the others ask them to be near to, shape (n, dof), in [rad].
+        branch: Branch of every sample, shape (m,).
+        psi: Swivel angle of the samples looked at, shape (m,), in [rad].
+        q: Posture the others ask them to be near to, shape (m, dof), in [rad].
     """
 
     branch: Indices
@@ -83,6 +83,7 @@ class Reassigned:
 
 
 def reassigned(
+    sample: Indices,
     q: Array,
     branch: Indices,
     looked_at: Indices,
@@ -91,16 +92,17 @@ def reassigned(
     reference: Array,
     backend: Backend,
 ) -> Reassigned:
-    """For samples beside a pole, the branch that comes nearest to what their neighbours ask for.
+    """Where the branch changes and beside poles, the branch that comes nearest to what the neighbours ask for.
 
     The two branches of a sample share out the directions in which a motion can pass its pole; when the
     direction turns, a sample can find itself on the wrong one.
 
     Args:
-        q: Joint angles, shape (n, dof), in [rad].
-        branch: Branch of every sample, shape (n,).
-        looked_at: Samples to look at, increasing, shape (k,).
-        time: Time stamps, shape (n,), in [s].
+        sample: Samples of the motion, increasing, shape (m,).
+        q: Joint angles there, shape (m, dof), in [rad].
+        branch: Branches there, shape (m,).
+        looked_at: Rows to look at besides those where the branch changes, shape (k,).
+        time: Time stamps of the path, shape (n,), in [s].
         intervals: The feasible intervals.
         reference: Reference directions, shape (n, 3).
         backend: "auto", "c" or "vm".
@@ -112,15 +114,24 @@ def reassigned(
         None (this package).
     """
     found = Reassigned(branch.copy(), np.zeros(len(branch)), q.copy())
-    inner = looked_at[(looked_at > 0) & (looked_at < len(q) - 1)]
+    change = np.flatnonzero(np.diff(branch))
+    rows = np.unique(np.concatenate([looked_at, change, change + 1]))
+    inner = rows[(rows > 0) & (rows < len(q) - 1)]
     if not inner.size:
         return found
-    share = ((time[inner] - time[inner - 1]) / (time[inner + 1] - time[inner - 1]))[:, None]
+    before, here, after = (time[sample[inner + i]] for i in (-1, 0, 1))
+    share = ((here - before) / (after - before))[:, None]
     line = q[inner - 1] + share * (q[inner + 1] - q[inner - 1])
-    other = _across(intervals, branch, inner)
-    own = branch[inner]
-    best, psi, away = _nearest(inner, own, other, line, intervals, reference, backend)
     now = np.abs(q[inner] - line).max(axis=1)
+    worth = now > _GAIN
+    if not worth.any():
+        return found
+    inner, line, now = inner[worth], line[worth], now[worth]
+    own = branch[inner]
+    other = np.where(own != branch[inner + 1], branch[inner + 1], branch[inner - 1])
+    same = np.flatnonzero(other == own)
+    other[same] = _across(intervals, own[same], sample[inner[same]])
+    best, psi, away = _nearest(sample[inner], own, other, line, intervals, reference, backend)
     better = (best != own) & (away < now - _GAIN)
     found.branch[inner[better]] = best[better]
     found.psi[inner], found.q[inner] = psi, line
@@ -129,7 +140,7 @@ def reassigned(
 
 def _across(intervals: FeasibleIntervals, branch: Indices, samples: Indices) -> Indices:
     """The branch on the other side of the nearest pole of each sample: shoulder or wrist turned over."""
-    signs = intervals.branches[branch[samples]]
+    signs = intervals.branches[branch]
     sines = np.empty((len(samples), 2))
     for curve, side in zip(intervals.curves, (1, -1), strict=True):
         rows = np.flatnonzero(signs[:, 0] == side)
@@ -167,12 +178,14 @@ def _tried(
 ) -> tuple[Indices, Indices, Array]:
     """Samples, branches and swivel angles worth trying."""
     spherical = intervals.curves[0].spherical
-    around = swivel_of_postures(spherical, line, reference[further]).psi[:, None] + np.linspace(
-        -_AROUND, _AROUND, _TRIED
-    )
+    at = swivel_of_postures(spherical, line, reference[further])
+    steps = np.linspace(-_AROUND, _AROUND, _TRIED)
     samples, branches, angles = [], [], []
     for branch in (before, after):
         exact = _of_first_angles(further, branch, line, intervals)
+        # Across the straight arm the elbow is on the other side of the line to the wrist.
+        half = np.where(intervals.branches[branch, 0] == at.elbow, 0.0, np.pi)
+        around = (at.psi + half)[:, None] + steps
         psi = np.hstack([around, np.where(np.isnan(exact), around[:, :1], exact)])
         samples.append(np.repeat(further, psi.shape[1]))
         branches.append(np.repeat(branch, psi.shape[1]))

@@ -46,6 +46,7 @@ def corridor(
     psi: Array,
     near: Array,
     backend: Backend = "auto",
+    samples: Indices | None = None,
 ) -> Corridor:
     """The interval of every sample that a motion passes: the one nearest in swivel angle and in posture.
 
@@ -55,6 +56,7 @@ def corridor(
         psi: Swivel angles asked for, without wrapping, shape (n,), in [rad].
         near: Postures asked for, shape (n, dof), in [rad].
         backend: "auto", "c" or "vm".
+        samples: Samples that `branch`, `psi` and `near` are of, increasing, shape (n,); all if left out.
 
     Returns:
         The corridor.
@@ -63,23 +65,26 @@ def corridor(
         None (this package).
     """
     n = len(psi)
+    row_of = np.full(len(intervals.empty), -1)
+    row_of[slice(None) if samples is None else samples] = np.arange(n)
     branches = np.broadcast_to(np.asarray(branch, dtype=np.int64), (n,))
-    row = np.flatnonzero(intervals.branch == branches[intervals.sample])
-    sample, start, end = intervals.sample[row], intervals.start[row], intervals.end[row]
-    start, end = _around(start, end, psi[sample])
-    missed = np.maximum(np.maximum(start - psi[sample], psi[sample] - end), 0.0)
+    of = row_of[intervals.sample]
+    chosen = np.flatnonzero((of >= 0) & (intervals.branch == branches[of]))
+    of, start, end = of[chosen], intervals.start[chosen], intervals.end[chosen]
+    start, end = _around(start, end, psi[of])
+    missed = np.maximum(np.maximum(start - psi[of], psi[of] - end), 0.0)
     away = missed.copy()
-    several = np.flatnonzero(np.bincount(sample, minlength=n)[sample] > 1)
+    several = np.flatnonzero(np.bincount(of, minlength=n)[of] > 1)
     if several.size:
-        of = sample[several]
-        at = np.clip(psi[of], start[several], end[several])
-        q = postures_at(intervals.curves, of, branches[of], at, backend=backend).q
-        away[several] += np.minimum(np.abs(q - near[of]).max(axis=1), _FAR)
-    order = np.lexsort((away, sample))
-    sample, first = np.unique(sample[order], return_index=True)
+        row, sample = of[several], intervals.sample[chosen[several]]
+        at = np.clip(psi[row], start[several], end[several])
+        q = postures_at(intervals.curves, sample, branches[row], at, backend=backend).q
+        away[several] += np.minimum(np.abs(q - near[row]).max(axis=1), _FAR)
+    order = np.lexsort((away, of))
+    row, first = np.unique(of[order], return_index=True)
     best = order[first]
     lower, upper, off = psi.copy(), psi.copy(), np.full(n, np.inf)
-    lower[sample], upper[sample], off[sample] = start[best], end[best], missed[best]
+    lower[row], upper[row], off[row] = start[best], end[best], missed[best]
     return Corridor(np.clip(psi, lower, upper), lower, upper, branches, off)
 
 

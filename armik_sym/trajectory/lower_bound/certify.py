@@ -12,7 +12,7 @@ from armik_sym.errors import OptionError, ShapeError
 from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.trajectory.lower_bound.linearised import objective_of
-from armik_sym.trajectory.lower_bound.problem import Problem
+from armik_sym.trajectory.lower_bound.problem import Problem, beside_chain
 from armik_sym.trajectory.lower_bound.search import search
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ _ROUNDING = 1e-9
 _ON_CURVE = 1e-6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LowerBound:
     """How far a trajectory can be from the best one.
 
@@ -33,12 +33,16 @@ class LowerBound:
         objective: Objective of the trajectory in hand.
         cells: Stretches of the swivel map that were bounded.
         seconds: Time it took.
+        suspect: None if the gap asked for was reached. Otherwise a smooth trajectory near where the bound is
+            lowest, shape (n, dof), in [rad]. It does not follow the path exactly; a solver started there may
+            find a better trajectory than the one in hand.
     """
 
     value: float
     objective: float
     cells: int
     seconds: float
+    suspect: Array | None = None
 
     @property
     def gap(self) -> float:
@@ -90,7 +94,7 @@ def lower_bound(
             the gap.
         known_first: Whether only trajectories that begin with q[0] count.
         gap: Relative gap at which the search stops. A smaller one needs more knots, and more time.
-        most_pairs: Work allowed, in pairs of cells; some 5 million per second.
+        most_pairs: Work allowed, in pairs of cells; some million per second.
 
     Returns:
         The bound; it is valid even where the work allowed did not suffice for the gap.
@@ -116,6 +120,8 @@ def lower_bound(
         },
     )
     rest = rom.middle if preferred is None else np.asarray(preferred, dtype=np.float64)
+    if rest.shape != (rom.dof,):
+        raise ShapeError(f"preferred {rest.shape}: expected ({rom.dof},)")
     objective = objective_of(t, speed_weight, acceleration_weight, posture_weight, rest)
     value, gradient = objective.value(angles), objective.gradient(angles)
     joints, shift = _searched(intervals, angles, gradient)
@@ -123,13 +129,15 @@ def lower_bound(
     box = np.tile(rom.lower, (len(t), 1)), np.tile(rom.upper, (len(t), 1))
     if known_first:
         box[0][0] = box[1][0] = angles[0]
-    bound, cells = 0.0, 0
+    bound, cells, suspect = 0.0, 0, None
     if value > 0:
         problem = Problem(intervals, t, objective, angles, gradient, joints, box, known_first)
         end = search(problem, value, gap, most_pairs)
         bound, cells = end.bound, end.looked_at
+        if not end.done:
+            suspect = rom.clip(angles + beside_chain(problem, end.start.knots, end.chain))
     lowest = max(value + bound + min(shift, 0.0) - _ROUNDING * value, 0.0)
-    return LowerBound(lowest, value + other_cost, cells, clock.perf_counter() - began)
+    return LowerBound(lowest, value + other_cost, cells, clock.perf_counter() - began, suspect)
 
 
 def _searched(intervals: FeasibleIntervals, q: Array, gradient: Array) -> tuple[Indices, float]:

@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 from armik_sym.trajectory.rates import sample_durations, smoothness_matrix, smoothness_rows
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+# Time τ within which a trajectory follows postures at knots, in [s].
+_NEAR = 0.04
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,25 +161,29 @@ def smoothed(objective: Objective, gradient: Array, away: Array, span: float) ->
     return away + _solve(objective.acceleration + keep, gradient - objective.acceleration @ away)
 
 
-def smooth_curve(time: Array, knots: NDArray[np.int64], values: Array, span: float) -> Array:
-    """A smooth curve near given values at knots: ∫ |e - values|² + T⁴·|ë|² dt least.
+def beside(objective: Objective, gradient: Array, knots: Indices, chain: Array) -> Array:
+    """The trajectory of least objective near postures at knots, curves and limits left aside.
+
+    Minimises g·e + ½ eᵀKe + ½ Σ_j W_j·|e_j - chain_j|² with W_j = w_v·(time between knots)/τ²: (K + W) e =
+    W·chain - g.
 
     Args:
-        time: Time stamps, shape (n,), in [s].
+        objective: The objective, with a weight of speed.
+        gradient: g = its gradient at q*, shape (n, dof).
         knots: Samples, shape (J,).
-        values: Shape (J, dof).
-        span: T, in [s].
+        chain: Postures minus q*, shape (J, dof), in [rad].
 
     Returns:
-        Shape (n, dof).
+        e, shape (n, dof), in [rad].
 
     Source:
-        Whittaker (1923), On a new method of graduation.
+        The proximal point of Rockafellar (1976), on a trajectory.
     """
-    between = np.array([np.interp(time, time[knots], column) for column in values.T]).T
-    weights = sample_durations(time)
-    A = sp.diags_array(weights) + smoothness_matrix(time, 0.0, span**4, 0.0)
-    return _solve(A, weights[:, None] * between)
+    weights, target = np.zeros(len(gradient)), np.zeros_like(gradient)
+    spacing = np.gradient(np.cumsum(objective.durations)[knots])
+    weights[knots] = spacing * objective.speed_weight / _NEAR**2
+    target[knots] = chain
+    return _solve(objective.K + sp.diags_array(weights), weights[:, None] * target - gradient)
 
 
 def _solve(A: sp.sparray, right: Array) -> Array:

@@ -12,7 +12,7 @@ from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.trajectory.lower_bound.arcs import Arcs, anywhere, arcs_of, near_pole
 from armik_sym.trajectory.lower_bound.cells import Cells, cells_of
 from armik_sym.trajectory.lower_bound.chain import Chain, chain_at, knots_within
-from armik_sym.trajectory.lower_bound.linearised import Objective, linearised, smooth_curve, smoothed
+from armik_sym.trajectory.lower_bound.linearised import Objective, beside, linearised, smoothed
 from armik_sym.trajectory.lower_bound.propagate import Layer, layer_of
 
 Array = NDArray[np.float64]
@@ -23,7 +23,6 @@ _SPANS = (0.0, 0.02, 0.04, 0.08, 0.16)
 _SHARE = 0.5
 # Widest arcs, narrowest that are still halved, and longest half tangents, in [rad].
 _WIDEST, _NARROWEST, _LONGEST = 0.4, 2e-4, 0.15
-_CHAIN_SPAN = 0.1
 _TINY = 1e-300
 
 
@@ -113,6 +112,7 @@ def start_of(problem: Problem, allowed: float) -> Start:
     """
     objective, gradient = problem.objective, problem.gradient
     avoid = near_pole(problem.intervals)
+    avoid[np.setdiff1d(np.arange(len(avoid)), problem.intervals.sample)] = True
     avoid[0] &= not problem.known_first
     best: Start | None = None
     for span in _SPANS:
@@ -226,20 +226,22 @@ def layers_of(
     return layers, chain, seen.loss + chain.sag
 
 
-def fitted(problem: Problem, start: Start, chain: Array) -> Array:
-    """The v of a linearisation at a trajectory near a chain of postures.
+def beside_chain(problem: Problem, knots: Indices, chain: Array) -> Array:
+    """A smooth trajectory near a chain of postures.
 
     Args:
         problem: What is searched.
-        start: Its beginning.
+        knots: Samples, shape (J,).
         chain: Postures at the knots minus reference, shape (J, joints searched), in [rad].
 
     Returns:
-        v, shape (n, dof), in [rad].
+        Trajectory minus reference, shape (n, dof), in [rad]; 0 if speed has no weight.
 
     Source:
         None (this package).
     """
     e = np.zeros_like(problem.q)
-    e[:, problem.joints] = smooth_curve(problem.time, start.knots, chain, _CHAIN_SPAN)
-    return smoothed(problem.objective, problem.gradient, -e, start.span)
+    if problem.objective.speed_weight:
+        j = problem.joints
+        e[:, j] = beside(problem.objective, problem.gradient[:, j], knots, chain)
+    return e

@@ -12,8 +12,8 @@ from armik_sym.trajectory.lower_bound.box_minimum import line_minimum, square_mi
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# Least share τ of the stiffness that is given up for the curvature of cells.
-_LEAST_SHARE = 0.05
+# Share τ of the stiffness that is given up for the curvature of cells that overlap.
+_USUAL_SHARE = 0.05
 _SAME = 1e-12
 _BLOCK = 200_000
 
@@ -72,7 +72,7 @@ def layer_of(
     """
     radius = np.linalg.norm(spread, axis=1)
     size = np.linalg.norm(centre, axis=1)
-    share = np.clip(radius / (size + _SAME), _LEAST_SHARE, 1.0)
+    share = _share(radius, size, np.linalg.norm(tangent, axis=1))
     w, loss = weight * (1 - share), spread @ np.abs(force)
     n0 = centre @ force + 0.5 * w * size**2 - 0.5 * weight * (1 / share - 1) * radius**2
     n1 = tangent @ force + w * (centre * tangent).sum(axis=1)
@@ -113,7 +113,7 @@ def _step(before: Layer, value: Array, after: Layer, stiffness: float) -> Array:
     square = np.maximum(square, 0.0)
     epsilon = after.radius[:, None] + before.radius
     length = np.sqrt((U * U).sum(axis=1))[:, None] + np.sqrt((T * T).sum(axis=1))
-    share = np.clip(epsilon / (np.sqrt(square) + length + _SAME), _LEAST_SHARE, 1.0)
+    share = _share(epsilon, np.sqrt(square), length)
     C = stiffness * (1 - share)
     K = value[0] + 0.5 * C * square - 0.5 * stiffness * (1 / share - 1) * epsilon**2
     a = value[1] - C * (F @ T.T - (E * T).sum(axis=1))
@@ -127,6 +127,17 @@ def _step(before: Layer, value: Array, after: Layer, stiffness: float) -> Array:
     b, hbb = b - slope[:, None], hbb - bend[:, None]
     least = _least(K, a, b, haa, hab, hbb)
     return np.asarray(np.stack([least, slope, bend]) + after.node)
+
+
+def _share(epsilon: Array, distance: Array, length: Array) -> Array:
+    """The share τ of the stiffness given up: about ε/|D|, at which (1 - τ)|D|² - (1/τ - 1)ε² is largest.
+
+    Centres are `distance` apart, and |D| is that up to `length`. Where |D| may be 0 it matters little, and a
+    share of a certain size keeps ε²/τ small; where ε is larger than all of |D| nothing is left: τ = 1.
+    """
+    apart = np.maximum(distance - length, 0.0)
+    least = np.minimum(_USUAL_SHARE, epsilon / (apart + _SAME))
+    return np.asarray(np.clip(epsilon / (distance + length + _SAME), least, 1.0))
 
 
 def _least(K: Array, a: Array, b: Array, haa: Array, hab: Array, hbb: Array) -> Array:

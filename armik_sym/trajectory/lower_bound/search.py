@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.trajectory.lower_bound.arcs import Arcs
 from armik_sym.trajectory.lower_bound.cells import Cells
+from armik_sym.trajectory.lower_bound.linearised import smoothed
 from armik_sym.trajectory.lower_bound.passes import both_ways, least_chain
 from armik_sym.trajectory.lower_bound.problem import (
     Problem,
     Start,
+    beside_chain,
     first_fineness,
-    fitted,
     layers_of,
     refined,
     start_of,
@@ -44,6 +45,8 @@ class Search:
         bound: Lower bound of f(q) - f(q*) for every feasible trajectory.
         looked_at: Cells bounded, counted every time.
         pairs: Pairs of cells looked at.
+        chain: Postures at the knots minus reference where the bound is lowest, shape (J, joints searched),
+            in [rad].
         done: Whether the bound is as near as was asked for.
     """
 
@@ -57,6 +60,7 @@ class Search:
     bound: float = -np.inf
     looked_at: int = 0
     pairs: int = 0
+    chain: Array = field(default_factory=lambda: np.zeros((0, 0)))
     done: bool = False
 
 
@@ -91,28 +95,25 @@ def search(problem: Problem, value: float, gap: float, most_pairs: int) -> Searc
 
 def _round(at: Search, value: float, most_pairs: int) -> None:
     """Bound what is left, first with the linearisation that suits q*, then with those of the least chains."""
-    away = at.start.away
+    away, problem = at.start.away, at.problem
     for trial in range(_TRIALS):
         before, count = at.bound, len(at.arcs)
-        hint = _bound_all(at, away, most_pairs)
-        if hint is None or at.bound < -value:
+        if not _bound_all(at, away, most_pairs) or at.done or at.bound < -value:
             return
         helped = len(at.arcs) < (1 - _WORTH) * count or at.bound > (1 - _WORTH) * before
         if trial and not helped:
             return
-        away = fitted(at.problem, at.start, hint)
+        e = beside_chain(problem, at.start.knots, at.chain)
+        away = smoothed(problem.objective, problem.gradient, -e, at.start.span)
 
 
-def _bound_all(at: Search, away: Array, most_pairs: int) -> Array | None:
-    """Bound every cell with one linearisation and put cells aside.
-
-    Returns the least chain, or None if the search is at its end.
-    """
+def _bound_all(at: Search, away: Array, most_pairs: int) -> bool:
+    """Bound every cell with one linearisation and put cells aside; False if that is more than allowed."""
     layers, chain, loss = layers_of(at.problem, at.arcs, at.cells, at.start.knots, away)
     pairs = _pairs(layers)
     if at.looked_at and at.pairs + pairs > most_pairs:
         at.pairs = most_pairs
-        return None
+        return False
     at.pairs += pairs
     at.looked_at += len(at.cells.arc)
     passes = both_ways(layers, chain.stiffness)
@@ -124,9 +125,9 @@ def _bound_all(at: Search, away: Array, most_pairs: int) -> Array | None:
     at.bound = max(at.bound, min(at.aside, float(per_knot.max())))
     knot = int(np.argmax(per_knot))
     mine = at.known[at.cells.arc][_of_knot(layers, knot)]
-    hint = least_chain(passes, layers, chain.stiffness, knot, int(np.argmin(mine)))
+    at.chain = least_chain(passes, layers, chain.stiffness, knot, int(np.argmin(mine)))
     _put_aside(at, first)
-    return None if at.done else hint
+    return True
 
 
 def _put_aside(at: Search, first: NDArray[np.int64]) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from armik_sym.arm.range_of_motion import RangeOfMotion
 from armik_sym.swivel.equivalent_angles import TURN
 from armik_sym.swivel.limit_cuts import zeros
-from armik_sym.trajectory.one_curve.stage import BRANCH, PARTS, ROOT, SHOULDER, SWIVEL, WRIST
+from armik_sym.trajectory.one_curve.stage import BRANCH, OFFSET, PARTS, REFERENCE, ROOT, SHOULDER, SWIVEL, WRIST
 
 Array = NDArray[np.float64]
 
@@ -27,11 +27,15 @@ _NOTHING = 1e-9
 # The posture at ψ may miss the one wanted by this much; more means that ψ is too coarse there, in [rad].
 _MISSED = 0.15
 
-_FIRST = [0, 4]
+_FIRST, _MIDDLE = [0, 4], [1, 5]
 
 # A curve that comes this near to a pole runs through it, and a swivel angle this near to it is there.
-_POLE = 1e-9
+_POLE = 1e-10
 _AT = 1e-3
+# Beside a pole the rounding of a swivel angle grows into this much of a joint angle at most, in [rad].
+_GROWN = 1e-5
+# Rounding of a joint angle; far from the pole, where it hardly turns, this can be much of the swivel angle, in [rad].
+_ROUNDED = 2e-14
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +76,7 @@ class Charts:
         for chart in (SHOULDER, WRIST):
             chosen = np.flatnonzero(self.chart == chart)
             if chosen.size:
-                found = _of_angle(self.rows[chosen], chart, x[chosen])
-                root = np.where(self.rows[chosen, ROOT[0]] > 0, found[:, 1], found[:, 0])
-                psi[chosen] = root + TURN * np.rint((self.near[chosen] - root) / TURN)
+                psi[chosen] = _on_root(self.rows[chosen], chart, x[chosen], self.near[chosen])
         return psi
 
     def stopped(self, x: Array) -> bool:
@@ -122,6 +124,7 @@ def choose_charts(
         None (this package).
     """
     steep = np.nan_to_num(np.abs(slope[:, _FIRST]), nan=np.inf)
+    steep[np.abs(np.sin(q[:, _MIDDLE] + rows[:, slice(*OFFSET)])) < _POLE] = np.inf
     missed = np.abs(q[:, _FIRST] - wanted[:, _FIRST])
     urgency = np.maximum(steep / _STEEP, missed / _MISSED)
     chart = np.where(urgency.max(axis=1) > 1.0, 1 + urgency.argmax(axis=1), SWIVEL)
@@ -138,6 +141,7 @@ def choose_charts(
         chosen = np.flatnonzero(chart == kind)
         if chosen.size:
             _by_first_angle(charts, kind, chosen, wanted[chosen, _FIRST[kind - 1]])
+            _keep_in_range(charts, kind, chosen, rom)
             _at_pole(charts, kind, chosen, wanted[chosen], rom)
     np.clip(charts.x, charts.lower, charts.upper, out=charts.x)
     return charts
@@ -148,7 +152,8 @@ def _by_first_angle(charts: Charts, kind: int, chosen: NDArray[np.int64], angle:
     rows, lower, upper = charts.rows[chosen], charts.lower[chosen], charts.upper[chosen]
     found = _of_angle(rows, kind, angle)
     away = np.abs(_wrapped(found - charts.near[chosen, None]))
-    none = np.isnan(found).any(axis=1)
+    away[~(_alongside(rows, kind, angle, found) >= -_POLE)] = np.inf
+    none = np.isinf(away).all(axis=1)
     second = (away[:, 1] <= away[:, 0]) | none
     psi = np.where(none, charts.near[chosen], np.where(second, found[:, 1], found[:, 0]))
     psi = charts.near[chosen] + _wrapped(psi - charts.near[chosen])
@@ -161,15 +166,34 @@ def _by_first_angle(charts: Charts, kind: int, chosen: NDArray[np.int64], angle:
     second = np.where(moved, off[:, 1] <= off[:, 0], second)
     start, end, cut = _monotone(rows, kind, psi, lower, upper)
     rising = _turning(rows, kind, psi) > 0
-    turned = [
-        angle + _turn(rows, kind, psi, ends, np.where(rising, sign, -sign))
-        for ends, sign in ((start, -1.0), (end, 1.0))
-    ]
+    turned = []
+    for ends, sign in ((start, -1.0), (end, 1.0)):
+        about = angle + _turn(rows, kind, psi, ends, np.where(rising, sign, -sign))
+        turned.append(np.where(ends == psi, about, _first_angle(rows, kind, ends, about)))
+    low, high = np.minimum(*turned), np.maximum(*turned)
+    inset = np.minimum(_ROUNDED, 0.5 * (high - low))
     charts.x[chosen] = angle
-    charts.lower[chosen], charts.upper[chosen] = np.minimum(*turned), np.maximum(*turned)
+    charts.lower[chosen], charts.upper[chosen] = low + inset, high - inset
     charts.near[chosen] = psi
     charts.cut[:, chosen] = np.where(rising, cut, cut[::-1])
     charts.rows[chosen, ROOT[0]] = np.where(second, 1.0, -1.0)
+
+
+def _keep_in_range(charts: Charts, kind: int, chosen: NDArray[np.int64], rom: RangeOfMotion) -> None:
+    """Draw bounds in where they leave the range of the outer joints by what rounding makes of an interval's end.
+
+    Beside a pole both joints turn alike, thousands of times as fast as the swivel angle.
+    """
+    rows, near = charts.rows[chosen], charts.near[chosen]
+    joints = [_FIRST[kind - 1], _FIRST[kind - 1] + 2]
+    limited = rom.width[joints] < TURN - _NOTHING
+    for bound, inwards in ((charts.lower, 1.0), (charts.upper, -1.0)):
+        x = bound[chosen]
+        outer = np.column_stack([x, _third_angle(rows, kind, x, _on_root(rows, kind, x, near))])
+        beyond = np.maximum(rom.lower[joints] - outer, outer - rom.upper[joints])
+        off = np.where(limited, beyond, 0.0).max(axis=1)
+        bound[chosen] = x + inwards * np.where((off > 0) & (off < _GROWN), off, 0.0)
+    charts.upper[chosen] = np.maximum(charts.lower[chosen], charts.upper[chosen])
 
 
 def _at_pole(
@@ -191,7 +215,8 @@ def _at_pole(
     C = rows[:, slice(*PARTS)].reshape(-1, 2, 3, 9)[:, kind - 1]
     sense = np.where((C[:, :, 8] * turn).sum(axis=1) > 0, -1.0, 1.0)
     first, third = _FIRST[kind - 1], _FIRST[kind - 1] + 2
-    ends = [wanted[:, first] + sense * (limit - wanted[:, third]) for limit in (rom.lower[third], rom.upper[third])]
+    turned = _third_angle(rows, kind, wanted[:, first], pole[through])
+    ends = [wanted[:, first] + sense * (limit - turned) for limit in (rom.lower[third], rom.upper[third])]
     vx, vy = (-part[through, 1] * turn[:, 2] + part[through, 2] * turn[:, 1] for part in (x, y))
     direction = wanted[:, first] + np.mod(np.arctan2(vy, vx) - wanted[:, first], np.pi)
     lower = np.maximum(rom.lower[first], np.minimum(*ends))
@@ -223,6 +248,31 @@ def _of_angle(rows: Array, kind: int, angle: Array) -> Array:
     """Both swivel angles at which the first angle (or the opposite one) has a value."""
     x, y = _entries(rows, kind)
     return zeros(np.sin(angle)[:, None] * x - np.cos(angle)[:, None] * y)
+
+
+def _alongside(rows: Array, kind: int, angle: Array, psi: Array) -> Array:
+    """Positive where ψ, shape (n, m), has this first angle on the row's branch; negative for the opposite one."""
+    (x, y), side = _entries(rows, kind), rows[:, BRANCH[0] + kind - 1]
+    turn = np.stack([np.ones_like(psi), np.cos(psi), np.sin(psi)])
+    vx, vy = (np.einsum("nk,knm->nm", part, turn) for part in (x, y))
+    return np.asarray(side[:, None] * (np.cos(angle)[:, None] * vx + np.sin(angle)[:, None] * vy))
+
+
+def _on_root(rows: Array, kind: int, angle: Array, near: Array) -> Array:
+    """The swivel angle at which the first angle has a value, on the root that the rows name."""
+    found = _of_angle(rows, kind, angle)
+    root = np.where(rows[:, ROOT[0]] > 0, found[:, 1], found[:, 0])
+    return np.asarray(root + TURN * np.rint((near - root) / TURN))
+
+
+def _third_angle(rows: Array, kind: int, angle: Array, psi: Array) -> Array:
+    """The third angle where the first one and the swivel angle are known, from Rz(-α)·Q as in `stage`."""
+    C = rows[:, slice(*PARTS)].reshape(-1, 2, 3, 9)[:, kind - 1]
+    Q = C[:, 0] + C[:, 1] * np.cos(psi)[:, None] + C[:, 2] * np.sin(psi)[:, None]
+    c, s = np.cos(angle), np.sin(angle)
+    found = np.arctan2(c * Q[:, 3] - s * Q[:, 0], c * Q[:, 4] - s * Q[:, 1])
+    reference = rows[:, REFERENCE[0] + _FIRST[kind - 1] + 2]
+    return np.asarray(reference + _wrapped(found - reference))
 
 
 def _monotone(

@@ -93,9 +93,9 @@ class CurveObjective:
         if self._library is None:
             q = self._rows("angles", x)
             off = self._S @ q - self._b
-            return 0.5 * float(np.vdot(off, off)), q
+            return 0.5 * float(np.vdot(off, off)) + self._of_postures(q), q
         q = np.empty((self.n, _JOINTS))
-        return self._call("armik_curve_value", x, q), q
+        return self._call("armik_curve_value", x, q) + self._of_postures(q), q
 
     def derivatives(self, x: Array) -> Derivatives:
         """Objective, gradient and Hessian.
@@ -117,7 +117,7 @@ class CurveObjective:
             value = self._call(
                 "armik_curve_derivatives", x, q, slope, curvature, force, gradient, bands
             )
-            return Derivatives(value, q, slope, curvature, gradient, bands)
+            return self._with_postures(Derivatives(value, q, slope, curvature, gradient, bands))
         q, slope, curvature = np.split(self._rows("second", x), 3, axis=1)
         off = self._S @ q - self._b
         force = self._S.T @ off
@@ -126,7 +126,8 @@ class CurveObjective:
             bands[i, : n - i] = self._K.diagonal(i) * products
         bands[0] += np.einsum("nj,nj->n", curvature, force)
         gradient = np.einsum("nj,nj->n", slope, force)
-        return Derivatives(0.5 * float(np.vdot(off, off)), q, slope, curvature, gradient, bands)
+        squares = 0.5 * float(np.vdot(off, off))
+        return self._with_postures(Derivatives(squares, q, slope, curvature, gradient, bands))
 
     def compiled_descent(
         self, x: Array, lower: Array, upper: Array, iterations: int, enough: float
@@ -146,7 +147,7 @@ class CurveObjective:
         Source:
             Bertsekas (1982), doi:10.1137/0320018 (projected Newton).
         """
-        if self._library is None:
+        if self._library is None or self.smoothness.posture_cost is not None:
             return None
         function = self._library.handle.armik_curve_descend
         function.restype = ctypes.c_int
@@ -162,6 +163,24 @@ class CurveObjective:
             address(room),
         )
         return at, float(value[0]), int(steps)
+
+    def _of_postures(self, q: Array) -> float:
+        cost, share = self.smoothness.posture_cost, self.smoothness.share
+        return 0.0 if cost is None or share is None else float(share @ cost.evaluate(q))
+
+    def _with_postures(self, at: Derivatives) -> Derivatives:
+        """What single postures cost, added to all derivatives by the chain rule."""
+        cost, share = self.smoothness.posture_cost, self.smoothness.share
+        if cost is None or share is None:
+            return at
+        pull = evaluate_rows(cost.gradient, at.q, cost.lengths, cost.parameters)
+        second = evaluate_rows(cost.hessian, at.q, cost.lengths, cost.parameters)
+        bend = np.einsum("ni,nij,nj->n", at.slope, second.reshape(-1, _JOINTS, _JOINTS), at.slope)
+        bands = at.bands.copy()
+        bands[0] += share * (bend + np.einsum("nj,nj->n", at.curvature, pull))
+        gradient = at.gradient + share * np.einsum("nj,nj->n", at.slope, pull)
+        value = at.value + self._of_postures(at.q)
+        return Derivatives(value, at.q, at.slope, at.curvature, gradient, bands)
 
     def _rows(self, name: str, x: Array) -> Array:
         """A function of every sample in NumPy, chart by chart."""

@@ -43,7 +43,8 @@ def curve_parameters(
         elbow[chosen] = curve.elbow[sample[chosen]]
     rows[:, slice(*BRANCH)] = signs[:, 1:]
     rows[:, slice(*OFFSET)] = spherical.shoulder.offset, wrist.offset if wrist else 0.0
-    reference = np.where(wide_joints(intervals), q, rom.middle)
+    # Where intervals are cut at the limits of a range of one turn, that range tells angles 2π apart as well.
+    reference = np.where(rom.width > TURN + 1e-9, q, rom.middle)
     reference[:, 3] = elbow + TURN * np.rint((np.clip(q[:, 3], rom.lower[3], rom.upper[3]) - elbow) / TURN)
     rows[:, slice(*REFERENCE)] = reference
     return rows

@@ -8,7 +8,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from armik_sym.trajectory.rates import smoothness_rows
+from armik_sym.trajectory.posture_cost import PostureCost
+from armik_sym.trajectory.rates import sample_durations, smoothness_weights
 
 Array = NDArray[np.float64]
 
@@ -27,6 +28,8 @@ class Smoothness:
         hold: Shape (n,).
         aim: Where the posture is drawn to, shape (n, dof), in [rad].
         scale: Factor by which the user's objective was multiplied to get here.
+        posture_cost: What single postures cost besides; None if nothing.
+        share: Scaled share of time of every sample that multiplies it, shape (n,), in [s].
     """
 
     speed: Array
@@ -34,6 +37,8 @@ class Smoothness:
     hold: Array
     aim: Array
     scale: float = 1.0
+    posture_cost: PostureCost | None = None
+    share: Array | None = None
 
     def matrix(self) -> sp.csr_array:
         """S with the objective ½ |S q - b|², where b is `hold`·`aim` in the last n rows.
@@ -51,26 +56,31 @@ class Smoothness:
         return sp.csr_array(sp.vstack([*rows, sp.diags_array(self.hold)]))
 
 
-def smoothness(time: Array, weights: tuple[float, float, float], aim: Array) -> Smoothness:
+def smoothness(
+    time: Array, weights: tuple[float, float, float], aim: Array, posture_cost: PostureCost | None = None
+) -> Smoothness:
     """The objective of a path's samples.
 
     Args:
         time: Time stamps, shape (n,), in [s].
         weights: Of squared speed, of squared acceleration [s²], of the squared distance from `aim` [1/s²].
         aim: Where the posture is drawn to, shape (dof,), in [rad].
+        posture_cost: What single postures cost besides.
 
     Returns:
         The objective, scaled.
 
     Source:
-        None (`rates.smoothness_rows`).
+        None (`rates.smoothness_weights`).
     """
     n = len(time)
-    S = smoothness_rows(time, *weights)
-    speed = S[: n - 1].diagonal(1)
-    bent = S[n - 1 : 2 * n - 3] if n >= 3 else sp.csr_array((0, n))
-    bend = np.column_stack([bent.diagonal(i) for i in range(3)]) if n >= 3 else np.zeros((0, 3))
-    largest = float(sp.csr_array(S.T @ S).diagonal().max())
-    scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, largest)
+    speed, bend, hold = smoothness_weights(time, *weights)
+    diagonal = np.square(hold)
+    diagonal[:-1] += np.square(speed)
+    diagonal[1:] += np.square(speed)
+    for i in range(3):
+        diagonal[i : n - 2 + i] += np.square(bend[:, i])
+    scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, float(diagonal.max()))
     r = np.sqrt(scale)
-    return Smoothness(r * speed, r * bend, r * S[-n:].diagonal(), np.tile(aim, (n, 1)), scale)
+    share = None if posture_cost is None else scale * sample_durations(time)
+    return Smoothness(r * speed, r * bend, r * hold, np.tile(aim, (n, 1)), scale, posture_cost, share)

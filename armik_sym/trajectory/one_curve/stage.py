@@ -2,7 +2,8 @@
 
 On one branch all angles are functions of the swivel angle ψ: with Rz(α)·Ry(β)·Rz(γ) = C0 + C1·cos ψ + C2·sin ψ,
 
-    α = atan2(±q23, ±q13),  β = atan2(±√(q13² + q23²), q33),  γ = atan2(±q32, ∓q31).
+    α = atan2(±q23, ±q13),  β = atan2(±√(q13² + q23²), q33),
+    γ = atan2(q21·cos α - q11·sin α, q22·cos α - q12·sin α).
 
 Beside a pole (β = 0) α turns fast while ψ hardly changes. There α itself is the coordinate: ψ is a root of
 sin α·q13 - cos α·q23 = 0, and with sin β = cos α·q13 + sin α·q23, which takes its sign along, everything is
@@ -65,11 +66,12 @@ def curve_angles(coordinate: ca.SX, parameters: ca.SX, chart: int) -> ca.SX:
 
 
 def _three(Q: ca.SX, near: ca.SX, side: ca.SX) -> list[ca.SX]:
-    """α, β, γ on one branch."""
+    """α, β, γ on one branch; γ from Rz(-α)·Q, so that the pose is kept whatever rounding makes of α."""
+    x, y = side * Q[0, 2], side * Q[1, 2]
     return [
-        _near(near[0], side * Q[1, 2], side * Q[0, 2]),
-        _near(near[1], side * ca.sqrt(Q[0, 2] ** 2 + Q[1, 2] ** 2), Q[2, 2]),
-        _near(near[2], side * Q[2, 1], -side * Q[2, 0]),
+        _near(near[0], y, x),
+        _near(near[1], side * ca.sqrt(x**2 + y**2), Q[2, 2]),
+        _near(near[2], x * Q[1, 0] - y * Q[0, 0], x * Q[1, 1] - y * Q[0, 1]),
     ]
 
 

@@ -1,0 +1,55 @@
+"""The posture at the first sample that is nearest to a known one."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armik_sym.compiled.backend import Backend
+from armik_sym.swivel.intervals import FeasibleIntervals
+from armik_sym.trajectory.global_path.nodes import spread_nodes
+from armik_sym.trajectory.library import trajectory_library
+from armik_sym.trajectory.one_curve.go_down import go_down
+from armik_sym.trajectory.one_curve.parameters import curve_parameters
+from armik_sym.trajectory.one_curve.smoothness import Smoothness
+
+Array = NDArray[np.float64]
+
+_SPACING = 0.05
+_TRIED = 4
+
+
+def nearest_on_curve(intervals: FeasibleIntervals, start: Array, backend: Backend = "auto") -> Array:
+    """Of all postures that bring the hand to sample 0, the one nearest to a known posture.
+
+    min |q - start| over all branches and feasible swivel angles: nodes first, then Newton steps.
+
+    Args:
+        intervals: The feasible intervals; sample 0 has some.
+        start: The known posture, shape (dof,), in [rad].
+        backend: "auto", "c" or "vm".
+
+    Returns:
+        The posture, shape (dof,), in [rad].
+
+    Source:
+        None (this package).
+    """
+    nodes = spread_nodes(intervals, np.zeros(1, dtype=np.int64), _SPACING, backend)
+    away = np.square(nodes.q - start).sum(axis=1)
+    best, least = nodes.q[int(away.argmin())], float(away.min())
+    rom = intervals.curves[0].spherical.arm.rom
+    aim = Smoothness(np.zeros(0), np.zeros((0, 3)), np.ones(1), start[None])
+    for k in np.argsort(away, kind="stable")[:_TRIED]:
+        of_branch = np.flatnonzero((intervals.sample == 0) & (intervals.branch == nodes.branch[k]))
+        start_, end = intervals.start[of_branch], intervals.end[of_branch]
+        i = int(np.argmin(np.maximum(start_ - nodes.psi[k], nodes.psi[k] - end)))
+        rows = curve_parameters(intervals, nodes.sample[[k]], nodes.branch[[k]], nodes.q[[k]])
+        library = trajectory_library(backend).library
+        bounds = start_[[i]], end[[i]]
+        down = go_down(library, rows, aim, nodes.psi[[k]], *bounds, nodes.q[[k]], rom)
+        q = down.objective.value(down.x)[1][0]
+        gap = float(np.square(q - start).sum())
+        if gap < least and rom.margin(q[None]).min() >= 0:
+            best, least = q, gap
+    return np.asarray(rom.clip(best))

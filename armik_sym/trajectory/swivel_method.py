@@ -1,0 +1,196 @@
+"""The whole trajectory over the swivel angle: the map, the global search, the optimum of each corridor."""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armik_sym.progress import Progress
+from armik_sym.solution.tracking_error import tracking_errors
+from armik_sym.swivel.full_turns import split_at_full_turns
+from armik_sym.swivel.library import swivel_library
+from armik_sym.swivel.map import SwivelMap, swivel_map
+from armik_sym.swivel.spherical_arm import why_not_spherical
+from armik_sym.symbolic import Orientation
+from armik_sym.trajectory.by_swivel import Outline, SwivelProblem, joint_guess, outlines, polished, settled
+from armik_sym.trajectory.full_space_method import spent_now
+from armik_sym.trajectory.guess import Guess
+from armik_sym.trajectory.ipopt import IterationCallback
+from armik_sym.trajectory.library import trajectory_library
+from armik_sym.trajectory.nearest_start import nearest_on_curve
+from armik_sym.trajectory.one_curve.parameters import wide_joints
+from armik_sym.trajectory.one_curve.limits import Limits
+from armik_sym.trajectory.one_curve.polish import Polished
+from armik_sym.trajectory.outcome import Outcome
+from armik_sym.trajectory.posture_cost import posture_cost, preferred_posture
+from armik_sym.trajectory.request import Request
+from armik_sym.trajectory.unreachable_on_map import raise_unreachable_on_map
+
+Array = NDArray[np.float64]
+
+_log = logging.getLogger(__name__)
+
+# Corridors whose outline costs this much more than the best are not worth a closer look.
+_NEARLY_AS_GOOD = 0.05
+_LOOKED_AT = 4
+# Further corridors, for when all of these fail.
+_SPARE = 2
+# Solutions whose joint angles differ by less than this everywhere are one, in [rad].
+_SAME = 0.02
+# Angles may leave the range of motion by this much for rounding before they are put back, in [rad].
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class SwivelOutcome:
+    """What the method found.
+
+    Attributes:
+        outcomes: Trajectories, the best first; none if every corridor failed.
+        guesses: Ways through the map, to start the full-space problem from.
+        compile_time: Seconds the C compiler took.
+    """
+
+    outcomes: tuple[Outcome, ...]
+    guesses: tuple[Guess, ...]
+    compile_time: float
+
+
+def why_not_by_swivel(request: Request) -> str | None:
+    """Why a request is not one for the swivel map.
+
+    Args:
+        request: What is asked.
+
+    Returns:
+        The reason in one sentence; None if it is one.
+
+    Source:
+        None (this package).
+    """
+    if request.options.tracking != "exact":
+        return 'the swivel map knows only exact tracking, but tracking is "soft"'
+    if request.orientation is not Orientation.FULL:
+        return f"the swivel map needs full poses, but orientation is {request.orientation.value!r}"
+    return why_not_spherical(request.arm)
+
+
+def solve_over_swivel(request: Request) -> SwivelOutcome:
+    """Solve over the swivel angle.
+
+    Args:
+        request: What is asked, of an arm with spherical shoulder and wrist, with full poses.
+
+    Returns:
+        The trajectories found.
+
+    Raises:
+        UnreachablePathError: If samples have no posture inside the range of motion; names the joints.
+        KeyboardInterrupt: If the user stopped the solve.
+
+    Source:
+        None (this package); Shimizu et al. (2008) for one sample.
+    """
+    called = time.perf_counter()
+    libraries = swivel_library(request.backend), trajectory_library(request.backend).library
+    compiled = sum(library.compile_time for library in libraries if library is not None)
+    compile_time = spent_now(compiled, time.perf_counter() - called)
+    request.tell("swivel map")
+    map_ = swivel_map(request.arm, request.path, backend=request.backend)
+    if map_.blocked.size:
+        raise_unreachable_on_map(map_)
+    problem = swivel_problem(request, map_)
+    request.tell("global path")
+    n_best = request.options.n_best
+    found = outlines(problem) if n_best == 1 else outlines(problem, most=4 * n_best, within=3.0)
+    guesses = tuple(_guess(problem, outline) for outline in found[:3])
+    best = _polish_each(request, problem, found)
+    return SwivelOutcome(tuple(_outcome(request, each) for each in best), guesses, compile_time)
+
+
+def swivel_problem(request: Request, map_: SwivelMap) -> SwivelProblem:
+    """The problem over the swivel angle.
+
+    Args:
+        request: What is asked.
+        map_: The swivel map of its arm and path.
+
+    Returns:
+        The problem.
+
+    Source:
+        None (this package).
+    """
+    intervals = split_at_full_turns(map_.intervals, request.backend)
+    o, arm = request.options, request.arm
+    first = None
+    if request.start is not None:
+        first = nearest_on_curve(intervals, request.start, request.backend)
+    return SwivelProblem(
+        arm=arm,
+        path=request.path,
+        intervals=intervals,
+        reference=map_.reference,
+        weights=(o.speed_weight, o.acceleration_weight, o.posture_weight),
+        aim=preferred_posture(arm, o.prefer),
+        limits=Limits(request.max_speed, request.max_acceleration, arm.rom, wide_joints(intervals)),
+        first=first,
+        library=trajectory_library(request.backend).library,
+        backend=request.backend,
+        posture_cost=posture_cost(arm, o, request.backend),
+        max_iterations=o.max_iterations,
+        output=o.ipopt_output,
+    )
+
+
+def _polish_each(request: Request, problem: SwivelProblem, found: list[Outline]) -> list[Polished]:
+    """The optima of the corridors, the best first; those that fail or turn out to be one are left out."""
+    n_best = request.options.n_best
+    if not found:
+        return []
+    near = [o for o in found if o.value <= (1 + _NEARLY_AS_GOOD) * found[0].value][:_LOOKED_AT]
+    chosen = near if n_best == 1 else found
+    corridors = sorted((settled(problem, outline) for outline in chosen), key=lambda each: each.value)
+    spare = (settled(problem, outline) for outline in found[len(chosen) :][:_SPARE])
+    kept: list[Polished] = []
+    for corridor in itertools.chain(corridors, spare):
+        if len(kept) == n_best:
+            break
+        result = polished(problem, corridor, _reporter(request))
+        _log.info("corridor: %s, objective %.6g", result.result.status, result.value)
+        if _is_good(request, result) and not any(np.abs(result.q - k.q).max() < _SAME for k in kept):
+            kept.append(result)
+    return sorted(kept, key=lambda each: each.value)
+
+
+def _is_good(request: Request, result: Polished) -> bool:
+    if not result.result.converged or result.broken:
+        return False
+    if request.arm.rom.margin(result.q).min() < -_ROUNDING:
+        return False
+    path, o = request.path, request.options
+    q = request.arm.rom.clip(result.q)
+    shift, turn = tracking_errors(request.arm, q, path.position, path.rotation, Orientation.FULL)
+    return bool(
+        shift.max() <= o.position_tolerance_or_default and turn.max() <= o.rotation_tolerance_or_default
+    )
+
+
+def _outcome(request: Request, result: Polished) -> Outcome:
+    return Outcome(request.arm.rom.clip(result.q), result.result.status, result.iterations)
+
+
+def _guess(problem: SwivelProblem, outline: Outline) -> Guess:
+    return Guess(joint_guess(problem, outline.way), np.zeros(len(problem.path)), "way through the swivel map")
+
+
+def _reporter(request: Request) -> IterationCallback | None:
+    progress = request.progress
+    if progress is None:
+        return None
+    return lambda iteration, violation: progress(Progress("one curve", iteration, violation))
