@@ -122,20 +122,21 @@ def test_bounds_of_the_coordinate_are_the_ends_of_the_interval_or_of_the_monoton
     """Against a dense scan of the first angle over ψ."""
     arm, group = POLES[pole]
     curves = beside_pole(arm, group, 1e-2, 60, 5)
-    lower, upper, charts = chosen(curves, free=True)
+    _, _, charts = chosen(curves, free=True)
     checked = 0
     for i in np.flatnonzero(charts.chart == group):
-        psi = charts.near[i] + np.linspace(-np.pi, np.pi, 40_001)
-        rows = np.repeat(charts.rows[i : i + 1], len(psi), axis=0)
-        second = values("second", np.zeros(len(psi)), psi, rows)
-        angle, slope = np.unwrap(second[:, FIRST[group]]), second[:, 7 + FIRST[group]]
+        psi = curves.psi[i] + np.linspace(-np.pi, np.pi, 40_001)
+        C = charts.rows[i, 27 * (group - 1) : 27 * group].reshape(3, 3, 3)
+        v = C[0, :2, 2] + np.outer(np.cos(psi), C[1, :2, 2]) + np.outer(np.sin(psi), C[2, :2, 2])
+        angle = np.unwrap(np.arctan2(v[:, 1], v[:, 0]))
+        slope = np.gradient(angle)
         middle = len(psi) // 2
         angle += charts.x[i] - angle[middle]
         turning = np.flatnonzero(np.diff(np.sign(slope)))
         before, after = turning[turning < middle], turning[turning >= middle]
         if not before.size or not after.size:
             assert not turning.size  # it turns all around the pole
-            assert charts.upper[i] - charts.lower[i] > 1.8 * np.pi
+            assert charts.upper[i] - charts.lower[i] > 1.5 * np.pi
             continue
         first, last = psi[before[-1]] + 1e-4, psi[after[0]] + 1e-4
         inset = 0.02 * (last - first)
@@ -150,7 +151,7 @@ def test_a_curve_around_the_pole_has_no_turning_point():
     """There the first angle turns with ψ all the way: bounds are nearly a turn apart, and nothing jumps."""
     arm = ARMS["ehmcs"].with_rom(np.full(7, -3.1), np.full(7, 3.1))
     curves = beside_pole(arm, SHOULDER, 0.05, 200, 7)
-    lower, upper, charts = chosen(curves, free=True)
+    _, _, charts = chosen(curves, free=True)
     around = (charts.chart == SHOULDER) & (charts.upper - charts.lower > 1.8 * np.pi)
     assert around.sum() > 10
     x = np.array([along(charts, share) for share in np.linspace(0, 1, 200)])
@@ -201,14 +202,14 @@ def test_far_from_poles_the_swivel_angle_is_the_coordinate():
     lower, upper, charts = chosen(curves)
     slope = values("second", np.zeros(len(q)), curves.psi, curves.rows)[:, [7, 11]]
     gentle = np.abs(slope).max(axis=1) < 2
-    assert gentle.sum() > 30
+    assert gentle.sum() > 15
     assert np.all(charts.chart[gentle] == SWIVEL)
     assert np.array_equal(charts.lower[gentle], lower[gentle])
     assert np.array_equal(charts.upper[gentle], upper[gentle])
     assert np.array_equal(charts.x[gentle], np.clip(curves.psi, lower, upper)[gentle])
 
 
-@settings(max_examples=60)
+@settings(max_examples=80)
 @given(
     seed=st.integers(0, 10_000),
     exponent=st.floats(-7, -1),

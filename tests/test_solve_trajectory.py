@@ -45,8 +45,14 @@ def free():
 
 @pytest.mark.parametrize(
     ("orientation", "search"),
-    [("full", "swivel"), ("full", "full-space"), ("pointing", "full-space"), ("pointing", "auto")]
-    + [("none", "full-space"), ("none", "auto")],
+    [
+        ("full", "swivel"),
+        ("full", "full-space"),
+        ("pointing", "full-space"),
+        ("pointing", "auto"),
+        ("none", "full-space"),
+        ("none", "auto"),
+    ],
 )
 @pytest.mark.parametrize(("name", "seed"), [("ehmcs", 1), ("human", 0), ("alfaiz", 2)])
 def test_every_arm_and_orientation_is_exact_inside_limits_and_no_worse_than_the_motion(
@@ -92,8 +98,14 @@ def test_motion_that_touches_both_limits_of_every_joint(orientation, search):
 
 @pytest.mark.parametrize(
     ("joints", "orientation", "search"),
-    [([2], "full", "full-space"), ([5, 6], "full", "full-space"), ([2], "full", "swivel")]
-    + [([5, 6], "full", "swivel"), ([5, 6], "none", "auto"), ([0, 4], "none", "auto")],
+    [
+        ([2], "full", "full-space"),
+        ([5, 6], "full", "full-space"),
+        ([2], "full", "swivel"),
+        ([5, 6], "full", "swivel"),
+        ([5, 6], "none", "auto"),
+        ([0, 4], "none", "auto"),
+    ],
 )
 def test_joints_locked_by_a_range_of_zero_width_stay_exactly_where_they_are(joints, orientation, search):
     lower, upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 from exact_solves import EHMCS
@@ -13,6 +11,7 @@ from smooth_motions import smooth_path
 import armik_sym as ak
 from armik_sym.errors import LimitError, OptionError, ShapeError, SolverError, UnreachablePathError
 from armik_sym.motion.hand_path import HandPath
+from armik_sym.trajectory import full_space_method, swivel_method
 
 
 def test_out_of_reach_names_samples_and_shortfall():
@@ -41,14 +40,41 @@ def test_only_the_samples_out_of_reach_are_named():
     np.testing.assert_allclose(caught.value.shortfall, [0.02, 0.05, 0.03, 0.01], atol=1e-3)
 
 
-def test_an_orientation_out_of_reach_is_told_in_degrees():
+def locked_wrist():
+    """An arm whose wrist does not move, and a path that needs a moving one."""
     path, _ = smooth_path(EHMCS, 6, seed=1)
-    locked_lower, locked_upper = EHMCS.rom.lower.copy(), EHMCS.rom.upper.copy()
-    locked_lower[4:] = locked_upper[4:] = EHMCS.rom.lower[4:]
-    locked = EHMCS.with_rom(locked_lower, locked_upper)
+    upper = EHMCS.rom.upper.copy()
+    upper[4:] = EHMCS.rom.lower[4:]
+    return EHMCS.with_rom(EHMCS.rom.lower, upper), path
+
+
+def test_an_orientation_out_of_reach_is_told_in_degrees():
     with pytest.raises(UnreachablePathError, match=r"mm and .*°") as caught:
-        ak.solve(locked, path)
+        ak.solve(*locked_wrist(), search="full-space")
     assert np.all(caught.value.turn + caught.value.shortfall > 1e-3)
+
+
+def test_an_orientation_out_of_reach_is_told_joint_by_joint_by_the_swivel_map():
+    arm, path = locked_wrist()
+    said = r"sample 0 \(0 s\): (forearm|wrist) \w+ limit \(.*°\) missed by [\d.]+°.*tracking=\"soft\""
+    with pytest.raises(UnreachablePathError, match=said) as caught:
+        ak.solve(arm, path)
+    error = caught.value
+    assert "of 6 samples cannot be reached by arm 'ehmcs' inside its range of motion" in str(error)
+    assert error.samples.shape == error.shortfall.shape == error.turn.shape
+    assert np.all(error.turn + error.shortfall > 1e-3)
+
+
+def test_poses_too_far_away_are_told_in_millimetres_by_the_swivel_map():
+    path, _ = smooth_path(EHMCS, 8, seed=1)
+    shoulder = np.array([0.0, 0.0, 0.143])
+    direction = path.position - shoulder
+    position = path.position.copy()
+    position[3:5] += 0.5 * direction[3:5] / np.linalg.norm(direction[3:5], axis=1)[:, None]
+    with pytest.raises(UnreachablePathError, match=r"\d mm") as caught:
+        ak.solve(EHMCS, HandPath(path.time, position, path.rotation))
+    assert caught.value.samples.tolist() == [3, 4]
+    assert np.all(caught.value.shortfall > 0.05)
 
 
 def test_hand_faster_than_the_joints_allow():
@@ -84,12 +110,15 @@ def test_too_few_iterations_is_a_solver_error_with_the_solvers_word():
     with pytest.raises(
         SolverError, match=r"no attempt converged.*[Rr]aise max_iterations \(now 1\)"
     ) as caught:
-        ak.solve(EHMCS, path, max_iterations=1)
+        ak.solve(EHMCS, path, max_iterations=1, search="full-space")
     assert caught.value.status == "Maximum_Iterations_Exceeded"
 
 
 def test_a_wrong_start_is_refused_before_anything_is_compiled(monkeypatch):
     path, q = smooth_path(EHMCS, 4, seed=1)
-    monkeypatch.setattr(sys.modules["armik_sym.trajectory.solve_trajectory"], "compile", None)
-    with pytest.raises(ShapeError, match="start"):
-        ak.solve(EHMCS, path, start=q)
+    monkeypatch.setattr(full_space_method, "compile", None)
+    for library in ("swivel_library", "trajectory_library"):
+        monkeypatch.setattr(swivel_method, library, None)
+    for search in ("auto", "full-space"):
+        with pytest.raises(ShapeError, match="start"):
+            ak.solve(EHMCS, path, start=q, search=search)

@@ -65,6 +65,8 @@ def _record(solution: Solution) -> dict[str, object]:
         "ok": solution.ok,
         "reasons": list(solution.reasons),
         "status": solution.status,
+        "cost": solution.cost,
+        "lower_bound": None if solution.bound is None else solution.bound.value,
     }
 
 

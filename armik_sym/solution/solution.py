@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from armik_sym.arm.model import Arm
 from armik_sym.errors import ShapeError
 from armik_sym.motion.hand_path import HandPath
+from armik_sym.solution.lower_bound import LowerBound
 from armik_sym.solution.motion_rates import arc_length, joint_acceleration, joint_speed
 from armik_sym.solution.timing import Timing
 from armik_sym.solution.tracking_error import tracking_errors
@@ -53,6 +54,7 @@ class Solution:
         settings: Options used, for the record.
         cost: Value of the objective the method minimised, in [1/s]; None if it has none.
         alternatives: Other trajectories that were asked for, by increasing cost.
+        bound: What no feasible trajectory can cost less than, if that was asked for.
 
     Raises:
         ShapeError: If `q` does not fit path and arm.
@@ -74,6 +76,7 @@ class Solution:
     settings: Mapping[str, object] = field(default_factory=dict)
     cost: float | None = None
     alternatives: tuple[Solution, ...] = ()
+    bound: LowerBound | None = None
 
     def __post_init__(self) -> None:
         q = np.array(self.q, dtype=np.float64)

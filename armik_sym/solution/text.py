@@ -48,7 +48,8 @@ def _lines(s: Solution) -> list[str]:
         f"compile {s.timing.compile:.2g} s, solve {s.timing.solve:.2g} s",
     ]
     if s.cost is not None:
-        lines.append(f"  cost            {s.cost:.6g} 1/s")
+        gap = "" if s.bound is None else f", certified: none costs {100 * s.bound.gap:.2g} % less"
+        lines.append(f"  cost            {s.cost:.6g} 1/s{gap}")
     lines += _other_choices(s)
     lines += [f"  because         {reason}" for reason in s.reasons]
     return lines

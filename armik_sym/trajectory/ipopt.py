@@ -10,7 +10,6 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.trajectory.full_space import FullSpaceProblem
 from armik_sym.trajectory.interrupt import InterruptWatch
 
 Array = NDArray[np.float64]
@@ -107,7 +106,7 @@ def run_ipopt(
     max_iterations: int,
     output: bool = False,
     report: IterationCallback | None = None,
-    settings: Mapping[str, object] | None = None,
+    settings: Mapping[str, Any] | None = None,
 ) -> IpoptResult:
     """Solve a problem with IPOPT.
 
@@ -149,8 +148,9 @@ def run_ipopt(
                     "calc_lam_p": False,
                     "error_on_fail": False,
                     "record_time": False,
-                    # Bounds are made here and sound; the check would print where joints of zero range leave fewer
-                    # variables than equations, which IPOPT can handle.
+                    "show_eval_warnings": output,
+                    # Bounds are made here and sound; the check would print where joints of zero range
+                    # leave fewer variables than equations, which IPOPT can handle.
                     "inputs_check": False,
                     "ipopt": {**_settings(problem.scale, max_iterations, output), **(settings or {})},
                 },

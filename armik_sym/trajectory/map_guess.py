@@ -54,10 +54,13 @@ def map_guess(request: Request) -> Guess | None:
         spherical = recognise(request.arm)
     except ArmModelError:
         return None
-    with_rotation = request.orientation is not Orientation.NONE
-    if with_rotation and (spherical.wrist is None or request.path.rotation is None):
+    rotation = request.path.rotation
+    if request.orientation is Orientation.NONE:
+        maps = _of_positions(request, spherical)
+    elif spherical.wrist is None or rotation is None:
         return None
-    maps = [_of_poses(request, spherical)] if with_rotation else _of_positions(request, spherical)
+    else:
+        maps = [_of_poses(request, spherical, rotation)]
     reached = ~np.all([one.empty.all(axis=1) for one in maps], axis=0)
     chosen = knots(request.path, request.arm.reach)
     usable = chosen[reached[chosen]]
@@ -77,8 +80,8 @@ def map_guess(request: Request) -> Guess | None:
     return Guess(q, np.zeros(len(q)), "way through the swivel map")
 
 
-def _of_poses(request: Request, spherical: SphericalArm) -> FeasibleIntervals:
-    position, rotation = request.path.position, request.path.rotation
+def _of_poses(request: Request, spherical: SphericalArm, rotation: Array) -> FeasibleIntervals:
+    position = request.path.position
     along = wrist_directions(spherical, position, rotation)
     reference = transported_reference(spherical, along)
     return feasible_intervals(spherical, position, rotation, reference, request.backend)

@@ -68,6 +68,8 @@ class TrajectoryOptions:
             "full-space".
         n_best: How many genuinely different trajectories are wanted at most, the best first: other
             corridors of the swivel map or other branches. The others are `Solution.alternatives`.
+        certify: Also compute a lower bound that no trajectory can beat, to about 1 %; takes a second or a few,
+            and tells how far the solution can be from the best one: `Solution.bound`.
         max_iterations: IPOPT iterations per attempt.
         ipopt_output: Let IPOPT print its iterations.
 
@@ -93,6 +95,7 @@ class TrajectoryOptions:
     start_tolerance: float = math.radians(1.0)
     search: Literal["auto", "swivel", "full-space"] = "auto"
     n_best: int = 1
+    certify: bool = False
     max_iterations: int = 300
     ipopt_output: bool = False
 

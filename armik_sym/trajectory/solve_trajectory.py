@@ -124,6 +124,8 @@ def _by_swivel(request: Request) -> bool:
         raise OptionError(f'search="swivel" does not fit: {reason}. Use search="auto" or search="full-space"')
     if n_best > 1:
         raise OptionError(f"n_best={n_best} needs the swivel map, which is not used here: {reason}")
+    if request.options.certify:
+        raise OptionError(f"certify=True needs the swivel map, which is not used here: {reason}")
     return False
 
 
@@ -148,5 +150,6 @@ def _solution(request: Request, outcome: Outcome, timing: Timing) -> Solution:
         status=outcome.status,
         iterations=outcome.iterations,
         settings=dataclasses.asdict(options),
+        bound=outcome.bound,
         cost=objective(request.arm, request.path.time, outcome.q, options, request.backend),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import logging
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from armik_sym.swivel.map import SwivelMap, swivel_map
 from armik_sym.swivel.spherical_arm import why_not_spherical
 from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.by_swivel import Outline, SwivelProblem, joint_guess, outlines, polished, settled
+from armik_sym.trajectory.certified import certified, suspected
 from armik_sym.trajectory.full_space_method import spent_now
 from armik_sym.trajectory.guess import Guess
 from armik_sym.trajectory.ipopt import IterationCallback
@@ -40,6 +41,8 @@ _NEARLY_AS_GOOD = 0.05
 _LOOKED_AT = 4
 # Further corridors, for when all of these fail.
 _SPARE = 2
+# A suspect has to be better by this share to take the place of the best.
+_BETTER = 1e-6
 # Solutions whose joint angles differ by less than this everywhere are one, in [rad].
 _SAME = 0.02
 # Angles may leave the range of motion by this much for rounding before they are put back, in [rad].
@@ -110,7 +113,10 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
     found = outlines(problem) if n_best == 1 else outlines(problem, most=4 * n_best, within=3.0)
     guesses = tuple(_guess(problem, outline) for outline in found[:3])
     best = _polish_each(request, problem, found)
-    return SwivelOutcome(tuple(_outcome(request, each) for each in best), guesses, compile_time)
+    outcomes = [_outcome(request, each) for each in best]
+    if request.options.certify and best:
+        outcomes[0] = _certified(request, problem, map_, best[0])
+    return SwivelOutcome(tuple(outcomes), guesses, compile_time)
 
 
 def swivel_problem(request: Request, map_: SwivelMap) -> SwivelProblem:
@@ -166,6 +172,20 @@ def _polish_each(request: Request, problem: SwivelProblem, found: list[Outline])
         if _is_good(request, result) and not any(np.abs(result.q - k.q).max() < _SAME for k in kept):
             kept.append(result)
     return sorted(kept, key=lambda each: each.value)
+
+
+def _certified(
+    request: Request, problem: SwivelProblem, map_: SwivelMap, best: Polished
+) -> Outcome:
+    """The best trajectory with its bound; where the bound suspects a better one, that is tried, too."""
+    request.tell("lower bound")
+    bound = certified(problem, map_, request.arm.rom.clip(best.q))
+    suspect = suspected(problem, bound)
+    if suspect is not None:
+        other = polished(problem, settled(problem, suspect), _reporter(request))
+        if _is_good(request, other) and other.value < (1 - _BETTER) * best.value:
+            best, bound = other, certified(problem, map_, request.arm.rom.clip(other.q))
+    return replace(_outcome(request, best), bound=bound)
 
 
 def _is_good(request: Request, result: Polished) -> bool:

@@ -30,7 +30,8 @@ def raise_unreachable_on_map(map_: SwivelMap) -> None:
     rotation = None if path.rotation is None else path.rotation[samples]
     shift, turn = tracking_errors(arm, q, path.position[samples], rotation, Orientation.FULL)
     lines = map_.explain_blocked()
-    more = f"; and {len(lines) - _LISTED} more stretches" if len(lines) > _LISTED else ""
+    left = len(lines) - _LISTED
+    more = f"; and {left} more stretch{'es' if left > 1 else ''}" if left > 0 else ""
     raise UnreachablePathError(
         f"{len(samples)} of {len(path)} samples cannot be reached by arm {arm.name!r} inside its range of "
         f'motion: {"; ".join(lines[:_LISTED])}{more}. Use tracking="soft" for the nearest continuous motion, '

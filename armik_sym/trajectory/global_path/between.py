@@ -138,6 +138,30 @@ def reassigned(
     return found
 
 
+def nearest_on_branch(
+    sample: int, branch: int, line: Array, intervals: FeasibleIntervals, reference: Array, backend: Backend
+) -> tuple[float, float]:
+    """Where one sample comes nearest to a posture on a given branch.
+
+    Args:
+        sample: The sample.
+        branch: The branch.
+        line: The posture, shape (dof,), in [rad].
+        intervals: The feasible intervals.
+        reference: Reference directions, shape (n, 3).
+        backend: "auto", "c" or "vm".
+
+    Returns:
+        Swivel angle, and how far it is from the posture; much farther if it is outside the range of motion.
+
+    Source:
+        None (this package).
+    """
+    samples, branches = np.array([sample]), np.array([branch])
+    _, psi, away = _nearest(samples, branches, branches, line[None], intervals, reference, backend)
+    return float(psi[0]), float(away[0])
+
+
 def _across(intervals: FeasibleIntervals, branch: Indices, samples: Indices) -> Indices:
     """The branch on the other side of the nearest pole of each sample: shoulder or wrist turned over."""
     signs = intervals.branches[branch]

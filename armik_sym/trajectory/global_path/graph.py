@@ -11,6 +11,7 @@ from armik_sym.swivel.branches import swivel_of_postures
 from armik_sym.swivel.equivalent_angles import nearest_in_range
 from armik_sym.trajectory.global_path.elbow_change import elbow_change_costs
 from armik_sym.trajectory.global_path.nodes import Nodes, spread_nodes
+from armik_sym.trajectory.global_path.search import ELBOW
 from armik_sym.trajectory.global_path.shortest_path import Edges
 from armik_sym.trajectory.rates import sample_durations
 from armik_sym.trajectory.swivel_problem import SwivelProblem
@@ -24,7 +25,7 @@ _SPACING = 0.08
 _SLACK = 0.4
 # A motion whose angular frequency is this makes the share of accelerations in the search's edges, in [1/s²].
 _TYPICAL_FREQUENCY_SQUARED = 10.0
-_ELBOW = 3
+
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +116,7 @@ def elbow_angles(problem: SwivelProblem) -> Array:
         None (law of cosines, `SwivelCurve.elbow`).
     """
     rom = problem.arm.rom
-    part = slice(_ELBOW, _ELBOW + 1)
+    part = slice(ELBOW, ELBOW + 1)
     lower, upper, middle = rom.lower[part], rom.upper[part], rom.middle[None, part]
     sides = [nearest_in_range(c.elbow[:, None], lower, upper, middle)[:, 0] for c in problem.intervals.curves]
     return np.array(sides)

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from armik_sym.trajectory.global_path.between import with_samples
 from armik_sym.trajectory.global_path.graph import Graph, search_graph
-from armik_sym.trajectory.global_path.improve import combined, improved
+from armik_sym.trajectory.global_path.improve import improved
+from armik_sym.trajectory.global_path.joined import joined
 from armik_sym.trajectory.global_path.knots import knots, straight_arm_knots
 from armik_sym.trajectory.global_path.search import Way, WaySearch
 from armik_sym.trajectory.global_path.smoothed import Outline, smoothed
@@ -75,7 +76,7 @@ def _distinct(
     if not known:
         return found, lost
     known.sort(key=lambda each: each.value)
-    best = improved(problem, combined(problem, known, smooth), smooth)
+    best = improved(problem, joined(problem, known, smooth), smooth)
     for outline in [best, *(each for each in known if not _same(each.way, best.way))]:
         drawn, gaps = _drawn_through(problem, outline)
         if not gaps.size:
@@ -103,8 +104,7 @@ def _drawn_through(problem: SwivelProblem, outline: Outline) -> tuple[Outline, I
         lost = further[away > _FAR]
     if not lost.size:
         lost = np.setdiff1d(np.flatnonzero(corridor_of(problem, way).missed > _MISSED), further)
-    beside_pole = np.searchsorted(way.sample, outline.way.sample[outline.beside_pole])
-    return Outline(way, outline.value, beside_pole), lost
+    return Outline(way, outline.value), lost
 
 
 def _unsettled(problem: SwivelProblem, way: Way) -> Indices:

@@ -15,8 +15,11 @@ from armik_sym.trajectory.global_path.shortest_path import Edges, Reached, short
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-# Ways whose postures differ by less than this everywhere are one, in [rad].
+# Ways whose postures differ by less than this everywhere are one, in [rad] …
 DIFFERENT = 0.25
+# … where the elbow, if it is bent to the other side, counts this many times more.
+_ACROSS = 4.0
+ELBOW = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +41,9 @@ class Way:
     cost: float
 
     @property
-    def stays(self) -> bool:
-        """Whether it keeps to one branch."""
-        return bool((self.branch == self.branch[0]).all())
+    def side(self) -> Indices:
+        """Side of the elbow at each, 0 for 1 and 1 for -1, shape (m,)."""
+        return np.asarray(self.branch >= 4, dtype=np.int64)
 
 
 class WaySearch:
@@ -133,8 +136,10 @@ def _valleys(nodes: Nodes, through: Array) -> Indices:
 
 
 def _distance(nodes: Nodes, chosen: Indices, way: Way) -> Array:
-    """How far nodes are from the posture of a way in the same layer."""
-    return np.asarray(np.abs(nodes.q[chosen] - way.q[nodes.layer[chosen]]).max(axis=1))
+    """How far nodes are from the posture of a way in the same layer; across the straight arm counts more."""
+    away = np.abs(nodes.q[chosen] - way.q[nodes.layer[chosen]])
+    across = nodes.side[chosen] != way.side[nodes.layer[chosen]]
+    return np.asarray(away.max(axis=1) + _ACROSS * across * away[:, ELBOW])
 
 
 def _way(nodes: Nodes, chosen: Indices, cost: float) -> Way:

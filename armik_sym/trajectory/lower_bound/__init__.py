@@ -46,6 +46,6 @@ All inequalities are exact in real arithmetic. They are computed in double preci
 for its rounding.
 """
 
-from armik_sym.trajectory.lower_bound.certify import LowerBound, lower_bound
+from armik_sym.trajectory.lower_bound.certify import lower_bound
 
-__all__ = ["LowerBound", "lower_bound"]
+__all__ = ["lower_bound"]

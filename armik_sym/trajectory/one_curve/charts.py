@@ -48,7 +48,7 @@ class Charts:
         x: Coordinates of the point they were chosen at, shape (n,), in [rad].
         lower: Least coordinates, shape (n,), in [rad].
         upper: Largest coordinates, shape (n,), in [rad].
-        near: The swivel angles they were chosen at, shape (n,), in [rad].
+        near: Swivel angles less than half a turn from all between the bounds, shape (n,), in [rad].
         cut: Whether a bound is the end of a monotone stretch and not of the interval, shape (2, n).
     """
 
@@ -140,15 +140,20 @@ def choose_charts(
     for kind in (SHOULDER, WRIST):
         chosen = np.flatnonzero(chart == kind)
         if chosen.size:
-            _by_first_angle(charts, kind, chosen, wanted[chosen, _FIRST[kind - 1]])
+            at = _by_first_angle(charts, kind, chosen, wanted[chosen, _FIRST[kind - 1]], rom)
             _keep_in_range(charts, kind, chosen, rom)
-            _at_pole(charts, kind, chosen, wanted[chosen], rom)
+            _at_pole(charts, kind, chosen, at, wanted[chosen], rom)
     np.clip(charts.x, charts.lower, charts.upper, out=charts.x)
     return charts
 
 
-def _by_first_angle(charts: Charts, kind: int, chosen: NDArray[np.int64], angle: Array) -> None:
-    """Make the first angle of shoulder or wrist the coordinate of some samples."""
+def _by_first_angle(
+    charts: Charts, kind: int, chosen: NDArray[np.int64], angle: Array, rom: RangeOfMotion
+) -> Array:
+    """Make the first angle of shoulder or wrist the coordinate of some samples; returns their swivel angles."""
+    joint = _FIRST[kind - 1]
+    near = rom.middle[joint] if rom.width[joint] <= TURN + _NOTHING else angle
+    angle = near + _wrapped(angle - near)
     rows, lower, upper = charts.rows[chosen], charts.lower[chosen], charts.upper[chosen]
     found = _of_angle(rows, kind, angle)
     away = np.abs(_wrapped(found - charts.near[chosen, None]))
@@ -158,9 +163,10 @@ def _by_first_angle(charts: Charts, kind: int, chosen: NDArray[np.int64], angle:
     psi = np.where(none, charts.near[chosen], np.where(second, found[:, 1], found[:, 0]))
     psi = charts.near[chosen] + _wrapped(psi - charts.near[chosen])
     inside = np.clip(psi, lower, upper)
-    moved = none | (np.abs(inside - psi) > _NOTHING)
+    turned_by = _turn(rows, kind, psi, inside, np.zeros(len(psi)))
+    moved = none | (np.abs(inside - psi) > _NOTHING) | (np.abs(turned_by) > _NOTHING)
     psi = inside
-    angle = np.where(moved, _first_angle(rows, kind, psi, angle), angle)
+    angle = np.where(moved, _first_angle(rows, kind, psi, near), angle)
     again = _of_angle(rows, kind, angle)
     off = np.abs(_wrapped(again - psi[:, None]))
     second = np.where(moved, off[:, 1] <= off[:, 0], second)
@@ -174,9 +180,10 @@ def _by_first_angle(charts: Charts, kind: int, chosen: NDArray[np.int64], angle:
     inset = np.minimum(_ROUNDED, 0.5 * (high - low))
     charts.x[chosen] = angle
     charts.lower[chosen], charts.upper[chosen] = low + inset, high - inset
-    charts.near[chosen] = psi
+    charts.near[chosen] = 0.5 * (start + end)
     charts.cut[:, chosen] = np.where(rising, cut, cut[::-1])
     charts.rows[chosen, ROOT[0]] = np.where(second, 1.0, -1.0)
+    return psi
 
 
 def _keep_in_range(charts: Charts, kind: int, chosen: NDArray[np.int64], rom: RangeOfMotion) -> None:
@@ -197,7 +204,7 @@ def _keep_in_range(charts: Charts, kind: int, chosen: NDArray[np.int64], rom: Ra
 
 
 def _at_pole(
-    charts: Charts, kind: int, chosen: NDArray[np.int64], wanted: Array, rom: RangeOfMotion
+    charts: Charts, kind: int, chosen: NDArray[np.int64], psi: Array, wanted: Array, rom: RangeOfMotion
 ) -> None:
     """Bounds of the first angle where the curve runs right through the pole: it is free to turn there.
 
@@ -205,10 +212,10 @@ def _at_pole(
     """
     rows = charts.rows[chosen]
     x, y = _entries(rows, kind)
-    pole = _pole(rows, kind, charts.near[chosen])
+    pole = _pole(rows, kind, psi)
     turn = np.column_stack([np.ones(len(pole)), np.cos(pole), np.sin(pole)])
     through = np.hypot((x * turn).sum(axis=1), (y * turn).sum(axis=1)) < _POLE
-    through &= np.abs(_wrapped(pole - charts.near[chosen])) < _AT
+    through &= np.abs(_wrapped(pole - psi)) < _AT
     if not through.any():
         return
     at, turn, rows, wanted = chosen[through], turn[through], rows[through], wanted[through]
@@ -224,7 +231,7 @@ def _at_pole(
     charts.cut[:, at] = [direction - np.pi > lower, direction < upper]
     charts.lower[at] = np.maximum(lower, direction - np.pi + _NOTHING)
     charts.upper[at] = np.maximum(charts.lower[at], np.minimum(upper, direction - _NOTHING))
-    charts.near[at] = charts.near[at] + _wrapped(pole[through] - charts.near[at])
+    charts.near[at] = psi[through] + _wrapped(pole[through] - psi[through])
     charts.x[at] = wanted[:, first]
     found = _of_angle(rows, kind, np.clip(charts.x[at], charts.lower[at], charts.upper[at]))
     away = np.abs(_wrapped(found - charts.near[at][:, None]))
@@ -289,7 +296,7 @@ def _monotone(
     return np.maximum(lower, before), np.minimum(upper, after), np.array([before > lower, after < upper])
 
 
-def _first_angle(rows: Array, kind: int, psi: Array, near: Array) -> Array:
+def _first_angle(rows: Array, kind: int, psi: Array, near: Array | float) -> Array:
     """The first angle at ψ, of those 2π apart the one nearest to another angle."""
     x, y = (part[:, 0] + part[:, 1] * np.cos(psi) + part[:, 2] * np.sin(psi) for part in _entries(rows, kind))
     side = rows[:, BRANCH[0] + kind - 1]

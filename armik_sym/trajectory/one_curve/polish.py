@@ -94,8 +94,9 @@ def polish(
     iterations, watched = down.iterations, dict[str, Mask]()
     for _ in range(_ROUNDS if free.any() else 0):
         matrix, least, most = limits.rows(time, watched)
+        problem = OneCurveProblem(objective, matrix)
         result = run_ipopt(
-            OneCurveProblem(objective, matrix),
+            problem,
             Bounds(lower, upper, least, most),
             x,
             max_iterations=max_iterations,
@@ -103,6 +104,7 @@ def polish(
             report=report,
             settings=_LIMITED if watched else _WARM,
         )
+        problem.raise_error()
         iterations += result.iterations
         x = np.clip(result.x, lower, upper)
         q = objective.value(x)[1]

@@ -8,6 +8,7 @@ Every point of it tracks the path exactly. Nothing is compiled for a length: Cas
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import casadi as ca
@@ -20,6 +21,8 @@ from armik_sym.trajectory.one_curve.objective import CurveObjective, Derivatives
 Array = NDArray[np.float64]
 
 _JOINTS = 7
+
+_Evaluate = Callable[[list[Array], list[Array]], None]
 
 
 class OneCurveProblem:
@@ -35,27 +38,52 @@ class OneCurveProblem:
     """
 
     def __init__(self, objective: CurveObjective, rows: sp.csr_array) -> None:
-        n = objective.n
+        n, m = objective.n, _JOINTS * rows.shape[0]
         self._objective, self._rows = objective, rows
         self._at: tuple[Array, Derivatives] | None = None
-        spread = sp.csc_array(sp.kron(rows, np.ones((_JOINTS, 1))))
-        spread.sort_indices()
-        self._spread = spread
-        self._joint = spread.indices % _JOINTS
-        self._column = np.repeat(np.arange(n), np.diff(spread.indptr))
-        constraints = ca.Sparsity(
-            _JOINTS * rows.shape[0], n, spread.indptr.tolist(), spread.indices.tolist()
-        )
+        self._error: BaseException | None = None
+        by_column = sp.csc_array(rows)
+        by_column.sort_indices()
+        indices = (_JOINTS * by_column.indices[:, None] + np.arange(_JOINTS)).ravel()
+        self._spread = np.repeat(by_column.data, _JOINTS)
+        self._joint = indices % _JOINTS
+        self._column = np.repeat(np.arange(n), _JOINTS * np.diff(by_column.indptr))
+        constraints = ca.Sparsity(m, n, (_JOINTS * by_column.indptr).tolist(), indices.tolist())
         bands, self._band_order = _five_bands(n)
         x, p, one = ca.Sparsity.dense(n, 1), ca.Sparsity.dense(0, 1), ca.Sparsity.dense(1, 1)
-        g = ca.Sparsity.dense(_JOINTS * rows.shape[0], 1)
-        self._value = _Called("value", [x], [one, g], self._evaluate)
-        self.gradient: ca.Function = _Called("grad_f", [x, p], [one, x], self._evaluate_gradient)
-        self.jacobian: ca.Function = _Called("jac_g", [x, p], [g, constraints], self._evaluate_jacobian)
-        self.hessian: ca.Function = _Called("hess_lag", [x, p, one, g], [bands], self._evaluate_hessian)
+        g = ca.Sparsity.dense(m, 1)
+        self._value = self._called("value", [x], [one, g], self._evaluate)
+        self.gradient = self._called("grad_f", [x, p], [one, x], self._evaluate_gradient)
+        self.jacobian = self._called("jac_g", [x, p], [g, constraints], self._evaluate_jacobian)
+        self.hessian = self._called("hess_lag", [x, p, one, g], [bands], self._evaluate_hessian)
         self.x = ca.MX.sym("psi", n)
         self.f, self.g = self._value(self.x)
         self.scale = objective.smoothness.scale
+
+    def raise_error(self) -> None:
+        """Raise what went wrong while CasADi called, which C++ cannot carry; IPOPT has long stopped then.
+
+        Raises:
+            BaseException: The first error, as it was.
+
+        Source:
+            None (packaging).
+        """
+        if self._error is not None:
+            raise self._error
+
+    def _called(self, name: str, inputs: list[Any], outputs: list[Any], evaluate: _Evaluate) -> ca.Function:
+        """A Function that keeps the first error; from then on every evaluation fails at once."""
+
+        def guarded(arguments: list[Array], results: list[Array]) -> bool:
+            if self._error is None:
+                try:
+                    evaluate(arguments, results)
+                except BaseException as error:  # noqa: BLE001 - carried through C++, see `raise_error`
+                    self._error = error
+            return self._error is None
+
+        return _Called(name, inputs, outputs, guarded)
 
     def _derivatives(self, psi: Array) -> Derivatives:
         """Derivatives at a point; IPOPT asks for gradient and Hessian at the same ones."""
@@ -65,7 +93,8 @@ class OneCurveProblem:
 
     def _evaluate(self, inputs: list[Array], outputs: list[Array]) -> None:
         outputs[0][0], q = self._objective.value(inputs[0])
-        outputs[1][:] = (self._rows @ q).ravel()
+        if self._rows.shape[0]:
+            outputs[1][:] = (self._rows @ q).ravel()
 
     def _evaluate_gradient(self, inputs: list[Array], outputs: list[Array]) -> None:
         at = self._derivatives(inputs[0])
@@ -74,7 +103,7 @@ class OneCurveProblem:
     def _evaluate_jacobian(self, inputs: list[Array], outputs: list[Array]) -> None:
         at = self._derivatives(inputs[0])
         outputs[0][:] = (self._rows @ at.q).ravel()
-        outputs[1][:] = self._spread.data * at.slope[self._column, self._joint]
+        outputs[1][:] = self._spread * at.slope[self._column, self._joint]
 
     def _evaluate_hessian(self, inputs: list[Array], outputs: list[Array]) -> None:
         at = self._derivatives(inputs[0])
@@ -88,7 +117,9 @@ class OneCurveProblem:
 class _Called(ca.Callback):
     """A CasADi Function that calls Python with the arrays themselves, nothing copied."""
 
-    def __init__(self, name: str, inputs: list[Any], outputs: list[Any], evaluate: Any) -> None:
+    def __init__(
+        self, name: str, inputs: list[Any], outputs: list[Any], evaluate: Callable[[list[Array], list[Array]], bool]
+    ) -> None:
         ca.Callback.__init__(self)
         self._in, self._out, self._evaluate = inputs, outputs, evaluate
         self.construct(name, {})
@@ -112,8 +143,7 @@ class _Called(ca.Callback):
         # What is empty, and outputs nobody asked for, come as None.
         inputs = [_array(a, pattern) for a, pattern in zip(arg, self._in, strict=True)]
         outputs = [_array(r, pattern) for r, pattern in zip(res, self._out, strict=True)]
-        self._evaluate(inputs, outputs)
-        return 0
+        return 0 if self._evaluate(inputs, outputs) else 1
 
 
 def _array(buffer: Any, pattern: Any) -> Array:
