@@ -16,7 +16,9 @@ from armik_sym.trajectory.one_curve.go_down import Down, go_down
 from armik_sym.trajectory.one_curve.parameters import curve_parameters
 from armik_sym.trajectory.one_curve.polish import Polished, polish
 from armik_sym.trajectory.one_curve.smoothness import Smoothness, smoothness
+from armik_sym.trajectory.rates import sample_durations
 from armik_sym.trajectory.swivel_problem import SwivelProblem
+from armik_sym.trajectory.whole_turns import in_best_turn
 
 __all__ = ["Outline", "Settled", "SwivelProblem", "joint_guess", "outlines", "polished", "settled"]
 
@@ -59,6 +61,8 @@ def settled(problem: SwivelProblem, outline: Outline) -> Settled:
     everywhere = np.arange(len(time))
     smooth = smoothness(time, problem.weights, problem.aim, problem.posture_cost)
     line, branch, psi = joint_guess(problem, way), band.branch, band.psi
+    if problem.first is None:
+        line = in_best_turn(line, problem.limits.wide, problem.arm.rom, problem.aim, sample_durations(time))
     for _ in range(_REASSIGNMENTS):
         rows = curve_parameters(problem.intervals, everywhere, branch, line)
         down = go_down(problem.library, rows, smooth, psi, lower, upper, line, problem.arm.rom)

@@ -24,8 +24,8 @@ from armik_sym.trajectory.guess import Guess
 from armik_sym.trajectory.ipopt import IterationCallback
 from armik_sym.trajectory.library import trajectory_library
 from armik_sym.trajectory.nearest_start import nearest_on_curve
-from armik_sym.trajectory.one_curve.parameters import wide_joints
 from armik_sym.trajectory.one_curve.limits import Limits
+from armik_sym.trajectory.one_curve.parameters import wide_joints
 from armik_sym.trajectory.one_curve.polish import Polished
 from armik_sym.trajectory.outcome import Outcome
 from armik_sym.trajectory.posture_cost import posture_cost, preferred_posture
@@ -46,7 +46,7 @@ _BETTER = 1e-6
 # Solutions whose joint angles differ by less than this everywhere are one, in [rad].
 _SAME = 0.02
 # Angles may leave the range of motion by this much for rounding before they are put back, in [rad].
-_ROUNDING = 1e-9
+_ROUNDING = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +110,7 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
     problem = swivel_problem(request, map_)
     request.tell("global path")
     n_best = request.options.n_best
-    found = outlines(problem) if n_best == 1 else outlines(problem, most=4 * n_best, within=3.0)
+    found = outlines(problem) if n_best == 1 else outlines(problem, most=4 * n_best, within=3.0, kept=3.0)
     guesses = tuple(_guess(problem, outline) for outline in found[:3])
     best = _polish_each(request, problem, found)
     outcomes = [_outcome(request, each) for each in best]

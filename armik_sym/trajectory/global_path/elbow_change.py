@@ -1,8 +1,8 @@
 """What the acceleration of the elbow costs between two knots, with and without a change of its side.
 
-Where a path touches full stretch, |θ| of the elbow goes down to zero and up again: bending on to the same side
-stops and reverses the elbow at once, passing through to the other side (if the range of motion allows it) does
-not. The elbow angle is known at every sample, so both can be told exactly.
+Where a path touches full stretch, |θ| of the elbow goes down to zero and up again: bending on to the same
+side stops and reverses the elbow at once, passing through to the other side (if the range of motion allows
+it) does not. The elbow angle is known at every sample, so both can be told exactly.
 """
 
 from __future__ import annotations

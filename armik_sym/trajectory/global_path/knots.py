@@ -52,7 +52,8 @@ def knots(path: HandPath, reach: float) -> Indices:
 def straight_arm_knots(intervals: FeasibleIntervals) -> Indices:
     """Samples around those where the arm is straightest, if the elbow can bend to either side there.
 
-    Bending on to the same side and passing through differ by accelerations that only neighbouring samples show.
+    Bending on to the same side and passing through differ by accelerations that only neighbouring samples
+    show.
 
     Args:
         intervals: The feasible intervals.
