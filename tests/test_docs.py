@@ -139,7 +139,17 @@ MAY_USE = {
     "pointwise": {"arm", "symbolic", "compiled", "motion", "solution"},
     "trajectory": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
     "report": {"arm", "symbolic", "swivel", "motion", "solution"},
-    "cli": {"arm", "symbolic", "compiled", "motion", "solution", "pointwise", "trajectory", "report"},
+    "cli": {
+        "arm",
+        "symbolic",
+        "compiled",
+        "swivel",
+        "motion",
+        "solution",
+        "pointwise",
+        "trajectory",
+        "report",
+    },
 }
 
 

@@ -39,6 +39,11 @@ class Settled:
     smooth: Smoothness
     value: float
 
+    @property
+    def beside_pole(self) -> bool:
+        """Whether the corridor passes beside a pole of shoulder or wrist."""
+        return bool(self.down.charts.chart.any())
+
 
 def settled(problem: SwivelProblem, outline: Outline) -> Settled:
     """The optimum in the corridor of a way, without limits on rates.

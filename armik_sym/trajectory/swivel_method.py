@@ -47,6 +47,7 @@ _BETTER = 1e-6
 _SAME = 0.02
 # Angles may leave the range of motion by this much for rounding before they are put back, in [rad].
 _ROUNDING = 1e-7
+_NOTHING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +102,10 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
     """
     called = time.perf_counter()
     libraries = swivel_library(request.backend), trajectory_library(request.backend).library
-    compiled = sum(library.compile_time for library in libraries if library is not None)
+    # Wishes that make no sense for this arm are refused here, before anything runs.
+    preferred_posture(request.arm, request.options.prefer)
+    wishes = posture_cost(request.arm, request.options, request.backend)
+    compiled = sum(each.compile_time for each in (*libraries, wishes) if each is not None)
     compile_time = spent_now(compiled, time.perf_counter() - called)
     request.tell("swivel map")
     map_ = swivel_map(request.arm, request.path, backend=request.backend)
@@ -169,7 +173,7 @@ def _polish_each(request: Request, problem: SwivelProblem, found: list[Outline])
             break
         result = polished(problem, corridor, _reporter(request))
         _log.info("corridor: %s, objective %.6g", result.result.status, result.value)
-        if _is_good(request, result) and not any(np.abs(result.q - k.q).max() < _SAME for k in kept):
+        if _is_good(request, result, corridor.beside_pole) and not any(np.abs(result.q - k.q).max() < _SAME for k in kept):
             kept.append(result)
     return sorted(kept, key=lambda each: each.value)
 
@@ -182,17 +186,22 @@ def _certified(
     bound = certified(problem, map_, request.arm.rom.clip(best.q))
     suspect = suspected(problem, bound)
     if suspect is not None:
-        other = polished(problem, settled(problem, suspect), _reporter(request))
-        if _is_good(request, other) and other.value < (1 - _BETTER) * best.value:
+        corridor = settled(problem, suspect)
+        other = polished(problem, corridor, _reporter(request))
+        if _is_good(request, other, corridor.beside_pole) and other.value < (1 - _BETTER) * best.value:
             best, bound = other, certified(problem, map_, request.arm.rom.clip(other.q))
     return replace(_outcome(request, best), bound=bound)
 
 
-def _is_good(request: Request, result: Polished) -> bool:
+def _is_good(request: Request, result: Polished, beside_pole: bool) -> bool:
+    """Whether limits are kept and, where rounding may have been at work, the hand is where it should be."""
     if not result.result.converged or result.broken:
         return False
-    if request.arm.rom.margin(result.q).min() < -_ROUNDING:
+    outside = -float(request.arm.rom.margin(result.q).min())
+    if outside > _ROUNDING:
         return False
+    if outside <= _NOTHING and not beside_pole:
+        return True  # the closed form itself, untouched: it is exact
     path, o = request.path, request.options
     q = request.arm.rom.clip(result.q)
     shift, turn = tracking_errors(request.arm, q, path.position, path.rotation, Orientation.FULL)

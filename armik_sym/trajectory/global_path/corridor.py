@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from armik_sym.compiled.backend import Backend
 from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.postures_at import postures_at
+from armik_sym.trajectory.global_path.monotone_cubic import monotone_cubic
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -111,7 +111,7 @@ def interpolated(time: Array, sample: Indices, psi: Array, branch: Indices) -> A
             everywhere[samples] = psi[part[0]]
         else:
             inside = np.clip(time[samples], None, time[sample[part[-1]]])
-            everywhere[samples] = PchipInterpolator(time[sample[part]], psi[part])(inside)
+            everywhere[samples] = monotone_cubic(time[sample[part]], psi[part], inside)
     return everywhere
 
 
