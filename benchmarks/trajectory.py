@@ -2,11 +2,11 @@
 
     python benchmarks/trajectory.py
 
-Each length runs in a process of its own, pinned to one core, with an empty cache (cold) and with a filled one
-(warm). "warm" solves are repeated in the process and the fastest counts; a second path of another length must
-compile nothing. Times are told as they are and, per pose, as multiples of one generated forward kinematics +
-Jacobian of the same process, evaluated one posture at a time ("plain") and in vector lanes ("lanes"): machines
-differ, and so does the same machine from hour to hour.
+Each length runs in a process of its own, pinned to one core, with an empty cache (cold) and with a filled
+one (warm). "warm" solves are repeated in the process and the fastest counts; a second path of another length
+must compile nothing. Times are told as they are and, per pose, as multiples of one generated forward
+kinematics + Jacobian of the same process, evaluated one posture at a time ("plain") and in vector lanes
+("lanes"): machines differ, and so does the same machine from hour to hour.
 """
 
 from __future__ import annotations
@@ -199,12 +199,12 @@ def main(lengths: tuple[int, ...]) -> int:
             run(100, cache)
             warm = run(n, cache, repeats=max(1, min(20, 20_000 // n)))
             best[n] = warm["best"]
-            multiple = warm["best"] / n / warm["plain"]
+            multiple, lanes = (warm["best"] / n / warm[name] for name in ("plain", "lanes"))
             print(
                 f"{n:9d}  {cold['import'] + cold['first']:6.2f} ({cold['compile']:5.2f}) "
                 f"{warm['import'] + warm['first']:8.2f}  "
                 f"{1e3 * warm['map']:5.0f}  {1e3 * warm['search']:6.0f}  {1e3 * warm['polish']:6.0f}  "
-                f"{1e3 * warm['best']:8.0f}  {1e6 * warm['best'] / n:7.1f}  {multiple:5.0f} {warm['best'] / n / warm['lanes']:5.0f}  "
+                f"{1e3 * warm['best']:8.0f}  {1e6 * warm['best'] / n:7.1f}  {multiple:5.0f} {lanes:5.0f}  "
                 f"{warm['iterations']:5.0f}  {warm['memory_GB']:6.2f}"
             )
             good = bool(cold["ok"] and warm["ok"])

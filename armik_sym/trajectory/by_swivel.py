@@ -86,9 +86,7 @@ def settled(problem: SwivelProblem, outline: Outline) -> Settled:
     return Settled(down, smooth, down.value / smooth.scale)
 
 
-def polished(
-    problem: SwivelProblem, found: Settled, report: IterationCallback | None = None
-) -> Polished:
+def polished(problem: SwivelProblem, found: Settled, report: IterationCallback | None = None) -> Polished:
     """The same with IPOPT, all limits kept.
 
     Args:

@@ -92,8 +92,9 @@ def _outcomes(request: Request) -> tuple[Sequence[Outcome], float]:
         return found.outcomes, found.compile_time
     if request.options.search == "swivel":
         raise SolverError(
-            "no corridor of the swivel map led to a trajectory inside all limits: every sample can be reached on "
-            'its own. Raise max_speed or max_acceleration, or use search="auto", which goes on in full space'
+            "no corridor of the swivel map led to a trajectory inside all limits, though every sample can be "
+            'reached on its own. Raise max_speed or max_acceleration, or use search="auto", which goes on in '
+            "full space"
         )
     outcome = solve_in_full_space(request, known)
     if found.guesses:

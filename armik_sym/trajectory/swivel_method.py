@@ -173,14 +173,13 @@ def _polish_each(request: Request, problem: SwivelProblem, found: list[Outline])
             break
         result = polished(problem, corridor, _reporter(request))
         _log.info("corridor: %s, objective %.6g", result.result.status, result.value)
-        if _is_good(request, result, corridor.beside_pole) and not any(np.abs(result.q - k.q).max() < _SAME for k in kept):
+        known = any(np.abs(result.q - other.q).max() < _SAME for other in kept)
+        if _is_good(request, result, corridor.beside_pole) and not known:
             kept.append(result)
     return sorted(kept, key=lambda each: each.value)
 
 
-def _certified(
-    request: Request, problem: SwivelProblem, map_: SwivelMap, best: Polished
-) -> Outcome:
+def _certified(request: Request, problem: SwivelProblem, map_: SwivelMap, best: Polished) -> Outcome:
     """The best trajectory with its bound; where the bound suspects a better one, that is tried, too."""
     request.tell("lower bound")
     bound = certified(problem, map_, request.arm.rom.clip(best.q))

@@ -24,9 +24,9 @@ _WARM = {
     # A share of narrow intervals, as IPOPT does by itself: 1e-10 of them is nothing beside rounding, and
     # IPOPT 3.14 crashes where it begins exactly on a bound.
     "bound_frac": 1e-2,
-    # The gradient carries the rounding of second differences: twice below this is converged.
-    "acceptable_tol": 1e-5,
-    "acceptable_iter": 2,
+    # The gradient carries the rounding of second differences: below this it is converged.
+    "acceptable_tol": 1e-6,
+    "acceptable_iter": 1,
 }
 _LIMITED = {"mu_strategy": "adaptive", "bound_push": 1e-8, "bound_frac": 1e-2, "acceptable_tol": 1e-5}
 
