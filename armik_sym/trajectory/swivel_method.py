@@ -5,11 +5,13 @@ from __future__ import annotations
 import itertools
 import logging
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from armik_sym.compiled.backend import Backend
 from armik_sym.progress import Progress
 from armik_sym.solution.tracking_error import tracking_errors
 from armik_sym.swivel.full_turns import split_at_full_turns
@@ -101,11 +103,10 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
         None (this package); Shimizu et al. (2008) for one sample.
     """
     called = time.perf_counter()
-    libraries = swivel_library(request.backend), trajectory_library(request.backend).library
     # Wishes that make no sense for this arm are refused here, before anything runs.
     preferred_posture(request.arm, request.options.prefer)
     wishes = posture_cost(request.arm, request.options, request.backend)
-    compiled = sum(each.compile_time for each in (*libraries, wishes) if each is not None)
+    compiled = _compile(request.backend) + (0.0 if wishes is None else wishes.compile_time)
     compile_time = spent_now(compiled, time.perf_counter() - called)
     request.tell("swivel map")
     map_ = swivel_map(request.arm, request.path, backend=request.backend)
@@ -121,6 +122,14 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
     if request.options.certify and best:
         outcomes[0] = _certified(request, problem, map_, best[0])
     return SwivelOutcome(tuple(outcomes), guesses, compile_time)
+
+
+def _compile(backend: Backend) -> float:
+    """Compile both libraries at the same time; returns the seconds of the one that took longer."""
+    with ThreadPoolExecutor(2) as both:
+        one, other = both.submit(swivel_library, backend), both.submit(trajectory_library, backend)
+        libraries = one.result(), other.result().library
+    return max((library.compile_time for library in libraries if library is not None), default=0.0)
 
 
 def swivel_problem(request: Request, map_: SwivelMap) -> SwivelProblem:
