@@ -93,6 +93,15 @@ def test_knots_begin_and_end_with_the_path_and_are_spread(n: int) -> None:
         assert len(found) < n / 4
 
 
+def test_steps_that_are_all_large_are_all_knots() -> None:
+    """Small ones beside much larger ones, too: evenly spread shares would jump over them."""
+    shift = np.tile([0.15, 0.9, 0.12, 0.4], 4)
+    position = np.zeros((len(shift) + 1, 3))
+    position[1:, 0] = np.cumsum(shift)
+    path = HandPath(0.3 * np.arange(len(position)), position, np.tile(np.eye(3), (len(position), 1, 1)))
+    np.testing.assert_array_equal(knots(path, 0.6), np.arange(len(position)))
+
+
 def test_straight_arm_knots_surround_the_straightest_sample() -> None:
     given = trajectory("through_straight_arm", 0)
     problem = swivel_problem_of(given)

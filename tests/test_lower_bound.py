@@ -218,6 +218,8 @@ def test_a_known_first_posture_raises_the_bound() -> None:
     assert known.value <= cost * (1 + 1e-9)
     assert bound(intervals, time, tied).value <= objective(time, free, arm.rom.middle, *DEFAULT) * (1 + 1e-9)
     assert known.gap <= 0.05
+    assert "begins with the same posture" in known.certified
+    assert "begins with" not in bound(intervals, time, tied).certified
     moved = random_feasible(intervals, tied, rng, 0.0)
     moved[0] = tied[0]
     assert known.value <= objective(time, moved, arm.rom.middle, *DEFAULT)

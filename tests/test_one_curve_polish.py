@@ -136,6 +136,17 @@ def test_motions_through_poles(family, number):
     assert np.abs(np.diff(found.q, axis=0)).max() <= 2 * np.abs(np.diff(case.q, axis=0)).max() + 0.1
 
 
+def test_rounding_beyond_the_range_of_a_joint_that_turns_is_not_broken():
+    rom = ARMS["odd_standard"].rom
+    wide = np.arange(7) == 6
+    kept = Limits(np.full(7, np.inf), np.full(7, np.inf), rom, wide)
+    q = np.tile(rom.middle, (3, 1))
+    q[1, 6] = rom.upper[6] + 1e-13
+    assert kept.broken(np.arange(3.0), q) == ()
+    q[1, 6] = rom.upper[6] + 1e-9
+    assert kept.broken(np.arange(3.0), q) == ("range",)
+
+
 def test_no_room_at_all():
     """Every sample held: the motion comes back as it is, and nobody asks IPOPT."""
     arm, n = ARMS["ehmcs"], 20

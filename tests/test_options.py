@@ -64,6 +64,15 @@ def test_counts_end_as_int(value):
         assert type(getattr(TrajectoryOptions(**{name: value}), name)) is int
 
 
+@pytest.mark.parametrize("name", ["certify", "ipopt_output"])
+def test_yes_or_no_and_nothing_else(name):
+    for value in (True, False, np.bool_(True)):
+        TrajectoryOptions(**{name: value})
+    for value in ("no", 1, None):
+        with pytest.raises(OptionError, match=f"{name} is {value!r}, expected True or False"):
+            TrajectoryOptions(**{name: value})
+
+
 @pytest.mark.parametrize("value", ["Auto", "map", "", None, True, "full_space"])
 def test_search_lists_the_valid_words(value):
     with pytest.raises(OptionError, match="valid are auto, swivel, full-space"):

@@ -45,3 +45,13 @@ def test_the_best_turn_of_all(middle, swing, width, aim, seed):
         assert cost(k) <= min(cost(other) for other in inside) * (1 + 1e-9) + 1e-9
     else:
         assert beyond(k) <= min(beyond(other) for other in tried) + 1e-9
+
+
+def test_a_motion_from_limit_to_limit_stays_though_rounding_puts_it_outside():
+    rom = RangeOfMotion(np.array([-2.0, -1.0]), np.array([-2.0 + 1.2 * TURN, 1.0]))
+    q = np.column_stack([np.linspace(-2.0 - 1e-13, -2.0 + 1.2 * TURN + 1e-13, 9), np.zeros(9)])
+    found = in_best_turn(q, WIDE, rom, np.array([20.0, 0.0]), np.ones(9))
+    np.testing.assert_array_equal(found, q)
+    only_below = q[:3]  # a whole turn more would fit as well
+    found = in_best_turn(only_below, WIDE, rom, rom.lower, np.ones(3))
+    np.testing.assert_array_equal(found, only_below)

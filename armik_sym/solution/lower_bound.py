@@ -22,6 +22,8 @@ class LowerBound:
         suspect: None if the gap asked for was reached. Otherwise a smooth trajectory near where the bound is
             lowest, shape (n, dof), in [rad]. It does not follow the path exactly; a solver started there may
             find a better trajectory than the one in hand.
+        known_first: Whether it holds only for trajectories that begin with the posture that the one in hand
+            begins with.
     """
 
     value: float
@@ -29,6 +31,7 @@ class LowerBound:
     cells: int
     seconds: float
     suspect: Array | None = None
+    known_first: bool = False
 
     @property
     def gap(self) -> float:
@@ -38,8 +41,9 @@ class LowerBound:
     @property
     def certified(self) -> str:
         """What is certified, in one sentence."""
+        begins = "begins with the same posture and " if self.known_first else ""
         return (
-            "No trajectory that brings the hand to every sample with every joint inside its range of motion, "
-            f"on any branch and with any swivel angles, has an objective below {self.value:.6g}; the best "
+            f"No trajectory that {begins}brings the hand to every sample with every joint inside its range of "
+            f"motion, on any branch and with any swivel angles, has an objective below {self.value:.6g}; the best "
             f"can have at most {100 * self.gap:.2g} % less than the {self.objective:.6g} of this one."
         )

@@ -7,6 +7,7 @@ import numbers
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from armik_sym.errors import OptionError
@@ -68,8 +69,9 @@ class TrajectoryOptions:
             "full-space".
         n_best: How many genuinely different trajectories are wanted at most, the best first: others in
             other corridors of the swivel map or other branches. The others are `Solution.alternatives`.
-        certify: Also compute a lower bound that no trajectory can beat, to about 1 %; takes a second or a
-            few, and tells how far the solution can be from the best one: `Solution.bound`.
+        certify: Also compute a lower bound that no trajectory can beat: how far the solution can be from the
+            best one, `Solution.bound`. It stops at 1 %, after some seconds; for fast, wide motions it can
+            stop short of that.
         max_iterations: IPOPT iterations per attempt.
         ipopt_output: Let IPOPT print its iterations.
 
@@ -110,6 +112,9 @@ class TrajectoryOptions:
         check_preference(self.prefer)
         for name in ("position_sigma", "rotation_sigma", "start_tolerance"):
             _check(name, getattr(self, name), zero=False)
+        for name in ("certify", "ipopt_output"):
+            if not isinstance(getattr(self, name), bool | np.bool_):
+                raise OptionError(f"{name} is {getattr(self, name)!r}, expected True or False")
         for name in ("max_iterations", "n_best"):
             _check_count(name, getattr(self, name))
             object.__setattr__(self, name, int(getattr(self, name)))  # 2.0 is a count, too

@@ -10,6 +10,9 @@ from armik_sym.swivel.equivalent_angles import TURN
 
 Array = NDArray[np.float64]
 
+# A motion that begins or ends at a limit may be outside by this much for rounding, in [rad].
+_ROUNDED = 1e-9
+
 
 def in_best_turn(q: Array, wide: NDArray[np.bool_], rom: RangeOfMotion, aim: Array, share: Array) -> Array:
     """Turn joints as a whole by the multiple of 2π that keeps them in range and nearest to a posture.
@@ -34,7 +37,8 @@ def in_best_turn(q: Array, wide: NDArray[np.bool_], rom: RangeOfMotion, aim: Arr
     least, most = q.min(axis=0), q.max(axis=0)
     mean = share @ q / share.sum()
     for j in np.flatnonzero(wide):
-        first, last = np.ceil((rom.lower[j] - least[j]) / TURN), np.floor((rom.upper[j] - most[j]) / TURN)
+        first = np.ceil((rom.lower[j] - least[j] - _ROUNDED) / TURN)
+        last = np.floor((rom.upper[j] - most[j] + _ROUNDED) / TURN)
         if first <= last:
             turns[j] = np.clip(np.rint((aim[j] - mean[j]) / TURN), first, last)
         else:

@@ -48,9 +48,10 @@ def knots(path: HandPath, reach: float) -> Indices:
     effort = np.maximum((shift + turn) / _HAND_MOTION, np.diff(path.time) / _TIME)
     covered = np.concatenate([[0.0], np.cumsum(effort)])
     wanted = min(covered[-1], _SHORT) + _SHARE * max(covered[-1] - _SHORT, 0.0)
-    count = int(min(n - 1, max(np.ceil(wanted), _FEWEST)))
-    even = np.linspace(0.0, covered[-1], count + 1)
-    return np.unique(np.concatenate([[0], np.searchsorted(covered, even[1:-1]), [n - 1]])).astype(np.int64)
+    # A knot wherever a further share of the way has been covered: two large steps never run into one.
+    shares = max(float(np.ceil(wanted)), _FEWEST)
+    passed = np.floor(covered * (shares / covered[-1]))
+    return np.union1d([0, n - 1], 1 + np.flatnonzero(np.diff(passed))).astype(np.int64)
 
 
 def straight_arm_knots(intervals: FeasibleIntervals) -> Indices:

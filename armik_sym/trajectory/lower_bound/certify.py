@@ -102,7 +102,7 @@ def lower_bound(
         if not end.done:
             suspect = rom.clip(angles + beside_chain(problem, end.start.knots, end.chain))
     lowest = max(value + bound + min(shift, 0.0) - _ROUNDING * value, 0.0)
-    return LowerBound(lowest, value + other_cost, cells, clock.perf_counter() - began, suspect)
+    return LowerBound(lowest, value + other_cost, cells, clock.perf_counter() - began, suspect, known_first)
 
 
 def _searched(intervals: FeasibleIntervals, q: Array, gradient: Array) -> tuple[Indices, float]:

@@ -19,6 +19,8 @@ Mask = NDArray[np.bool_]
 # IPOPT satisfies constraints to 1e-10; limits are drawn in by more than that, so that they hold exactly.
 _RELATIVE_MARGIN = 1e-8
 _MARGIN = 2e-10
+# Rounding of a joint angle, in [rad]: what is outside by less is put back inside in the end.
+_ROUNDED = 1e-12
 # Once a limit is exceeded somewhere, it is watched wherever more than this share of it is used.
 _WATCHED = 0.8
 
@@ -114,6 +116,6 @@ class Limits:
         if np.isfinite(self.max_acceleration).any():
             use["acceleration"] = np.abs(joint_acceleration(time, q)) / self.max_acceleration
         if self.wide.any():
-            away = np.abs(q - self.rom.middle) / np.maximum(0.5 * self.rom.width, 1e-300)
+            away = (np.abs(q - self.rom.middle) - _ROUNDED) / np.maximum(0.5 * self.rom.width, 1e-300)
             use["range"] = np.where(self.wide, away, 0.0)
         return use
