@@ -1,4 +1,4 @@
-"""The swivel map: where the elbow can be while the hand follows its path, and what stops a patient."""
+"""The swivel map: where the elbow can be on a hand path, which choices there are, what stops a patient."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from armik_sym.report import save_figure
 
 
 def main(out: Path = Path("armik_out")) -> int:
-    """Map a task for a healthy arm and for a patient; draw both."""
+    """Map a task for a healthy arm, another with two choices, and one for a patient; draw them."""
     out.mkdir(exist_ok=True)
     arm, task = ak.catalog.ehmcs(), ak.load_task("catching_ball")
 
@@ -28,6 +28,13 @@ def main(out: Path = Path("armik_out")) -> int:
         task.measured, compare={"elbow 20° higher": elbow_higher}, title=f"{task.title} (synthetic)"
     )
     print(f"figure: {save_figure(figure, out / 'swivel_map.png')}\n")
+
+    ball = ak.load_task("playing_ball")
+    best = ak.solve(arm, ball.path, n_best=2)  # genuinely different trajectories, the best first
+    print(best)
+    others = {f"choice {number}": other for number, other in enumerate(best.alternatives, start=2)}
+    figure = ak.swivel_map(arm, ball.path).plot(best, others, title=f"{ball.title} (synthetic)")
+    print(f"figure: {save_figure(figure, out / 'swivel_map_choices.png')}\n")
 
     lower, upper = arm.rom.lower.copy(), arm.rom.upper.copy()
     upper[arm.joint_index("elbow_flexion")] = np.deg2rad(110)  # a stiff elbow

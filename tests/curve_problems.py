@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,10 @@ from armik_sym.swivel.full_turns import split_at_full_turns
 from armik_sym.swivel.intervals import FeasibleIntervals, feasible_intervals
 from armik_sym.swivel.reference import transported_reference, wrist_directions
 from armik_sym.swivel.spherical_arm import SphericalArm, recognise
+from armik_sym.trajectory.library import trajectory_library
 from armik_sym.trajectory.one_curve.parameters import curve_parameters
 from armik_sym.trajectory.one_curve.smoothness import Smoothness, smoothness
 from armik_sym.trajectory.one_curve.stage import ROOT, SHOULDER, SWIVEL, WRIST
-from armik_sym.trajectory.library import trajectory_library
 
 Array = NDArray[np.float64]
 WEIGHTS = (1.0, 0.01, 1e-3)
@@ -93,6 +93,3 @@ def bare(n: int, seed: int, time: Array | None = None) -> Smoothness:
     """The usual objective over n samples, drawn to a random posture."""
     time = 0.05 * np.arange(n) if time is None else time
     return smoothness(time, WEIGHTS, np.random.default_rng(seed).normal(size=7))
-
-
-__all__ = [name for name in dir() if not name.startswith("_")]

@@ -83,7 +83,7 @@ def test_demo_in_a_pipe_writes_everything_and_cuts_nothing(tmp_path):
         (line,) = [line for line in out.splitlines() if line.startswith(name)]
         assert line.split()[-1] == "ok"
         assert len(line.split()) == 10
-        for ending in ("solution.csv", "joints.png", "hand.png"):
+        for ending in ("solution.csv", "joints.png", "hand.png", "swivel_map.png"):
             assert (tmp_path / "demo" / f"{name}_{ending}").stat().st_size > 1000
     assert "synthetic" in (tmp_path / "demo" / "README.txt").read_text(encoding="utf-8")
 
@@ -94,7 +94,7 @@ def test_solve_writes_angles_and_figures_and_says_what_they_are_worth(tmp_path):
     assert result.stdout.startswith("ok: arm ehmcs, 141 samples")
     assert ANSI not in result.stdout
     stem = tmp_path / "out" / TASK.stem
-    for ending in ("solution.csv", "solution.npz", "joints.png", "hand.png"):
+    for ending in ("solution.csv", "solution.npz", "joints.png", "hand.png", "swivel_map.png"):
         assert Path(f"{stem}_{ending}").exists()
         assert f"{stem}_{ending}" in result.stdout
     with np.load(f"{stem}_solution.npz") as saved:
@@ -105,6 +105,97 @@ def test_solve_writes_angles_and_figures_and_says_what_they_are_worth(tmp_path):
         rows = list(csv.reader(file))
     assert rows[0][1] == "shoulder_abduction [deg]"
     np.testing.assert_allclose(np.deg2rad(np.array(rows[1:], dtype=float)[:, 1:8]), q, atol=1e-12)
+
+
+def test_the_next_best_trajectories_are_written_beside_the_best(tmp_path):
+    """Their costs are printed, and their angles are those of the library."""
+    path = ak.read_path(data_folder() / "tasks" / "playing_ball_path.csv")
+    short = tmp_path / "ball.csv"
+    ak.write_path(short, ak.HandPath(path.time[::4], path.position[::4], path.rotation[::4]))
+    result = run("solve", short, "--n-best", "3", "--search", "swivel", "--out", tmp_path / "out")
+    assert result.exit_code == 0, result.stderr
+    best = ak.solve(ak.catalog.ehmcs(), ak.read_path(short), n_best=3)
+    assert len(best.alternatives) >= 1
+    for number, each in enumerate((best, *best.alternatives), start=1):
+        rank = f"_{number}" if number > 1 else ""
+        for name in (f"ball_solution{rank}.csv", f"ball_solution{rank}.npz", f"ball_joints{rank}.png"):
+            assert (tmp_path / "out" / name).exists()
+            assert name in result.stdout
+        with np.load(tmp_path / "out" / f"ball_solution{rank}.npz") as saved:
+            np.testing.assert_allclose(saved["q"], each.q, atol=1e-9)
+        assert f"cost {each.cost:.6g} 1/s" in " ".join(result.stdout.split())
+    assert (tmp_path / "out" / "ball_swivel_map.png").exists()
+    more = len(best.alternatives) + 2
+    assert not (tmp_path / "out" / f"ball_solution_{more}.csv").exists()
+
+
+@pytest.mark.parametrize("orientation", ["none", "pointing"])
+def test_no_swivel_map_is_drawn_where_the_hand_is_free_to_turn(tmp_path, orientation):
+    result = run("solve", TASK, "--orientation", orientation, "--out", tmp_path)
+    assert result.exit_code == 0, result.stderr
+    assert not list(tmp_path.glob("*swivel_map*"))
+    assert "_swivel_map.png" not in result.stdout
+
+
+def test_a_soft_solution_is_drawn_on_the_map_of_its_path(tmp_path):
+    result = run("solve", TASK, "--tracking", "soft", "--out", tmp_path)
+    assert result.exit_code == 0, result.stderr
+    assert (tmp_path / f"{TASK.stem}_swivel_map.png").exists()
+
+
+def test_search_and_n_best_reach_the_solver(tmp_path, monkeypatch):
+    seen = {}
+
+    def spy(arm, path, method, **options):
+        seen.update(options)
+        raise ak.ArmikError("enough")
+
+    monkeypatch.setattr(ak, "solve", spy)
+    run("solve", TASK, "--search", "full-space", "--n-best", "4", "--out", tmp_path)
+    assert (seen["search"], seen["n_best"]) == ("full-space", 4)
+    seen.clear()
+    run("solve", TASK, "--set", "search=full-space", "--set", "n_best=4", "--out", tmp_path)
+    assert (seen["search"], seen["n_best"]) == ("full-space", 4)
+    seen.clear()
+    run("solve", TASK, "--out", tmp_path)
+    assert not {"search", "n_best"} & set(seen)
+
+
+EVERY_OPTION = {
+    "orientation": "full",
+    "tracking": "exact",
+    "max_speed": 9.0,
+    "max_acceleration": [900.0, 900.0, 900.0, 900.0, 900.0, 900.0, 900.0],
+    "speed_weight": 1.5,
+    "acceleration_weight": 0.02,
+    "posture_weight": 0.01,
+    "clearance_weight": 1.0,
+    "clearance": [0.1, 0.1, 0.1, 0.1, 0.2, 0.2, 0.2],
+    "prefer": "elbow_low",
+    "prefer_weight": 2.0,
+    "position_sigma": 0.002,
+    "rotation_sigma": 0.02,
+    "position_tolerance": 1e-6,
+    "rotation_tolerance": None,
+    "start_tolerance": 0.1,
+    "search": "swivel",
+    "n_best": 2,
+    "certify": False,
+    "max_iterations": 200,
+    "ipopt_output": False,
+}
+
+
+def test_every_option_of_the_trajectory_can_be_set(tmp_path):
+    from armik_sym.trajectory import TrajectoryOptions
+
+    assert set(EVERY_OPTION) == {field.name for field in dataclasses.fields(TrajectoryOptions)}
+    typed = [word for name, value in EVERY_OPTION.items() for word in ("--set", f"{name}={value}")]
+    result = run("solve", TASK, "--backend", "vm", "--out", tmp_path, *typed)
+    assert result.exit_code == 0, result.stderr
+    with np.load(tmp_path / f"{TASK.stem}_solution.npz") as saved:
+        settings = json.loads(str(saved["record"]))["settings"]
+    assert settings == EVERY_OPTION
 
 
 def test_options_of_solve_reach_the_solver_in_si_units(tmp_path, monkeypatch):

@@ -59,6 +59,16 @@ def failure(*arguments):
         ([TASK, "--set", "clearance_weight=much"], ["clearance_weight is 'much'", "finite number"]),
         ([TASK, "--set", "clearance=[0.1, 0.2]"], ["clearance has 2 numbers", "7 joints"]),
         ([TASK, "--set", "clearence=0.1"], ["'clearence'", "clearance, clearance_weight"]),
+        ([TASK, "--n-best", "0"], ["--n-best is 0", "whole number ≥ 1"]),
+        ([TASK, "--set", "n_best=1.5"], ["--n-best is 1.5", "whole number ≥ 1"]),
+        ([TASK, "--n-best", "2", "--orientation", "none"], ["--n-best 2 needs the swivel map", "full poses"]),
+        ([TASK, "--n-best", "2", "--method", "lm"], ["--n-best belongs to --method trajectory"]),
+        ([TASK, "--search", "map"], ["search is 'map'", "auto, swivel, full-space"]),
+        (
+            [TASK, "--search", "swivel", "--tracking", "soft"],
+            ["--search swivel does not fit", "--search auto"],
+        ),
+        ([TASK, "--search", "swivel", "--method", "lm"], ["--search belongs to --method trajectory"]),
     ],
 )
 def test_solve_says_what_is_wrong(tmp_path, monkeypatch, arguments, words):
@@ -189,3 +199,6 @@ def test_messages_speak_the_language_of_the_command_line():
         as_typed('Use tracking="soft" or orientation="none".') == "Use --tracking soft or --orientation none."
     )
     assert as_typed("Raise max_speed.") == "Raise --max-speed."
+    assert (
+        as_typed('n_best=2 or n_best; search="full-space"') == "--n-best 2 or --n-best; --search full-space"
+    )

@@ -143,7 +143,19 @@ MAY_USE = {
     "trajectory": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
     "comparison": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
     "report": {"arm", "symbolic", "swivel", "motion", "solution", "comparison"},
-    "cli": {"arm", "symbolic", "compiled", "motion", "solution", "pointwise", "trajectory", "report"},
+    "cli": {
+        "arm",
+        "symbolic",
+        "compiled",
+        "swivel",
+        "motion",
+        "solution",
+        "pointwise",
+        "trajectory",
+        "fitting",
+        "comparison",
+        "report",
+    },
 }
 
 

@@ -1,4 +1,4 @@
-"""Coordinates beside the poles: bounds over the coordinate are the bounds over ψ, and every point is a posture."""
+"""Coordinates beside the poles: their bounds are the bounds over ψ, and every point is a posture."""
 
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ def beside_pole(arm: Arm, group: int, distance: float, n: int = 120, seed: int =
     """Postures inside the range of motion, that far from a pole."""
     rng = np.random.default_rng(seed)
     q = arm.rom.middle + 0.8 * arm.rom.width * rng.uniform(-0.5, 0.5, (n, 7))
-    q[:, MIDDLE[group]] = rng.choice(singular_angles(arm, MIDDLE[group]), n) + distance * rng.choice([-1, 1], n)
+    q[:, MIDDLE[group]] = rng.choice(singular_angles(arm, MIDDLE[group]), n) + distance * rng.choice(
+        [-1, 1], n
+    )
     return curves_of(arm, q[arm.rom.margin(q).min(axis=1) >= 0])
 
 
@@ -140,7 +142,9 @@ def test_bounds_of_the_coordinate_are_the_ends_of_the_interval_or_of_the_monoton
             continue
         first, last = psi[before[-1]] + 1e-4, psi[after[0]] + 1e-4
         inset = 0.02 * (last - first)
-        ends = np.sort(np.interp([min(first + inset, psi[middle]), max(last - inset, psi[middle])], psi, angle))
+        ends = np.sort(
+            np.interp([min(first + inset, psi[middle]), max(last - inset, psi[middle])], psi, angle)
+        )
         assert [charts.lower[i], charts.upper[i]] == pytest.approx(ends, abs=2e-3)
         assert charts.cut[:, i].all()
         checked += 1
@@ -209,7 +213,7 @@ def test_far_from_poles_the_swivel_angle_is_the_coordinate():
     assert np.array_equal(charts.x[gentle], np.clip(curves.psi, lower, upper)[gentle])
 
 
-@settings(max_examples=80)
+@settings(max_examples=50)
 @given(
     seed=st.integers(0, 10_000),
     exponent=st.floats(-7, -1),
@@ -231,4 +235,5 @@ def test_whatever_is_wanted_every_coordinate_is_sound(seed, exponent, pole, shif
         psi, q = charts.swivel_angles(x), values("angles", charts.chart, x, charts.rows)
         assert np.all((psi >= lower - 1e-8) & (psi <= upper + 1e-8))
         assert pose_error(arm, q, curves.position, curves.rotation) <= 1e-9
-        assert arm.rom.margin(q)[:, limited].min() >= -1e-9
+        # Where ψ is the coordinate, rounding of an interval's end beside the pole is seen in the angles.
+        assert arm.rom.margin(q)[:, limited].min() >= -1e-9 - 1e-15 / 10.0**exponent

@@ -128,14 +128,14 @@ def test_the_seven_joints_of_a_real_arm_become_radians(formats: Path) -> None:
 def test_c3d(
     formats: Path, name: str, frames: int, markers: int, unit: float, rate: float, share: float, label: str
 ) -> None:
-    ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed (extra c3d)")
     r = read_markers(formats / name)
     assert (len(r), len(r.names), r.rate) == (frames, markers, rate)
     assert np.isnan(r.position[..., 0]).mean() == pytest.approx(share, abs=5e-4)
+    assert r.of(label).shape == (frames, 3)
+    ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed (extra c3d)")
     content = ezc3d.c3d(str(formats / name))
     assert list(r.names) == content["parameters"]["POINT"]["LABELS"]["value"]
     np.testing.assert_array_equal(r.position, content["data"]["points"][:3].transpose(2, 1, 0) / unit)
-    assert r.of(label).shape == (frames, 3)
     assert r.rate == pytest.approx(content["parameters"]["POINT"]["RATE"]["value"][0], rel=1e-7)
     # The bytes themselves, without any reader: 32-bit floating-point numbers from the first block of data on.
     raw = (formats / name).read_bytes()
@@ -206,7 +206,7 @@ def test_angles_without_units_are_read_with_those_of_the_caller(formats: Path) -
 @pytest.mark.parametrize("name", ["markers.trc", "ADL001DR3.csv", "sample_propulsion.c3d"])
 @pytest.mark.parametrize("ending", [".trc", ".csv", ".c3d"])
 def test_real_recordings_survive_every_writer(formats: Path, tmp_path: Path, name: str, ending: str) -> None:
-    if ".c3d" in (ending, Path(name).suffix):
+    if ending == ".c3d":
         pytest.importorskip("ezc3d", reason="ezc3d is not installed (extra c3d)")
     r = read_markers(formats / name)
     write_markers(tmp_path / f"x{ending}", r)

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +12,7 @@ from numpy.typing import NDArray
 
 from armik_sym.errors import MotionFileError, OptionError, RecordingError, UnitError, UnknownNameError
 from armik_sym.motion.c3d_header import C3DHeader, read_c3d_header
+from armik_sym.motion.c3d_points import read_points
 from armik_sym.motion.marker_recording import MarkerRecording
 from armik_sym.motion.nexus_csv import frame_numbers
 from armik_sym.motion.promised_rows import warn
@@ -26,13 +23,12 @@ Array = NDArray[np.float64]
 
 _LONGEST_NAME = 127
 _WORDS = 2
-_MOST_FRAMES = 65535
 
 
 def read_c3d(path: str | os.PathLike[str]) -> MarkerRecording:
-    """Read the points of a `.c3d` file; needs the package `ezc3d`.
+    """Read the points of a `.c3d` file.
 
-    A point is missing where its residual is negative or a coordinate is NaN. t = (frame - 1) / rate. The
+    All lengths the file states are held against its own length first. A point is missing where its residual is negative or a coordinate is NaN. t = (frame - 1) / rate. The
     rate is the shortest decimal that the file's 32-bit number stands for (59.94, not 59.93999863).
 
     Args:
@@ -44,7 +40,6 @@ def read_c3d(path: str | os.PathLike[str]) -> MarkerRecording:
     Raises:
         MotionFileError: If the file is missing, unreadable, cut off or damaged; names the byte.
         UnitError: If it declares no unit of length, or an unknown one.
-        OptionError: If `ezc3d` is not installed.
 
     Source:
         The C3D file format user guide, Motion Lab Systems (2021).
@@ -53,7 +48,7 @@ def read_c3d(path: str | os.PathLike[str]) -> MarkerRecording:
     header = read_c3d_header(file)
     factor = _scale(file, header)
     names, odd = _names(file, header)
-    position = _points(file, header) / factor
+    position = read_points(file, header) / factor
     rate = float(str(np.float32(header.rate)))
     time = np.arange(header.first_frame - 1, header.first_frame - 1 + header.frames) / rate
     try:
@@ -92,10 +87,6 @@ def write_c3d(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
     frames, rate = frame_numbers(file, recording)
     if frames[0] < 1 or frames[-1] - frames[0] + 1 != len(frames) or frames[-1] >= 2**31:
         raise MotionFileError(f"{file}: the frames {frames[0]} to {frames[-1]} have steps or start before 1")
-    if len(frames) > _MOST_FRAMES:
-        raise MotionFileError(
-            f"{file}: {len(frames)} frames are too many: ezc3d reads {_MOST_FRAMES} again; write parts"
-        )
     if not file.parent.is_dir():
         raise MotionFileError(f"{file}: cannot be written: there is no folder {file.parent}")
     content = _ezc3d().c3d()
@@ -127,48 +118,9 @@ def _ezc3d() -> Any:
         import ezc3d
     except ImportError:
         raise OptionError(
-            "c3d files need the package ezc3d, which is not installed: pip install 'armik_sym[c3d]'"
+            "writing c3d files needs the package ezc3d, which is not installed: pip install 'armik_sym[c3d]'"
         ) from None
     return ezc3d
-
-
-def _points(file: Path, header: C3DHeader) -> Array:
-    """Points in the unit of the file, shape (frames, points, 3); NaN where missing."""
-    ezc3d = _ezc3d()
-    try:
-        with _in_utf8(file, header) as readable:
-            content = ezc3d.c3d(str(readable))
-        points = np.asarray(content["data"]["points"], dtype=np.float64)
-        residuals = np.asarray(content["data"]["meta_points"]["residuals"], dtype=np.float64)
-    except (OSError, RuntimeError, ValueError, IndexError, KeyError, TypeError, MemoryError) as error:
-        raise MotionFileError(f"{file}: ezc3d cannot read it: {error}") from None
-    expected = (4, header.points, header.frames)
-    if points.shape != expected or residuals.shape != (1, *expected[1:]):
-        raise MotionFileError(
-            f"{file}: ezc3d reads {points.shape[1:]} points and frames, the header promises {expected[1:]}"
-        )
-    position = np.moveaxis(points[:3], (0, 1, 2), (2, 1, 0)).copy()
-    position[(residuals[0] < 0).T] = np.nan
-    position[np.isinf(position).any(axis=2)] = np.nan
-    return position
-
-
-@contextmanager
-def _in_utf8(file: Path, header: C3DHeader) -> Iterator[Path]:
-    """The file, or a copy without text in other encodings, which stops ezc3d with a segmentation fault."""
-    if not header.not_utf8:
-        yield file
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / "copy.c3d"
-        shutil.copyfile(file, copy)
-        with copy.open("r+b") as raw:
-            for start, length in header.not_utf8:
-                raw.seek(start)
-                text = raw.read(length)
-                raw.seek(start)
-                raw.write(bytes(byte if byte < 128 else ord("?") for byte in text))
-        yield copy
 
 
 def _scale(file: Path, header: C3DHeader) -> float:

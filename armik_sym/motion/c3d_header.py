@@ -27,7 +27,11 @@ class C3DHeader:
         first_frame: Number of the first frame, from 1.
         rate: Frames per second, in [Hz].
         parameters: The parameters by "GROUP:NAME".
-        not_utf8: Stretches of bytes that hold text in another encoding than UTF-8: start and length.
+        start: Byte at which the data start.
+        analog: Number of analog values in every frame, after the points.
+        scale: Length that 1 stands for if the data are whole numbers; negative if they are floating-point.
+        order: Order of bytes, "<" or ">".
+        dec: Whether floating-point numbers are those of DEC.
 
     Source:
         The C3D file format user guide, Motion Lab Systems (2021).
@@ -38,7 +42,11 @@ class C3DHeader:
     first_frame: int
     rate: float
     parameters: Mapping[str, Parameter]
-    not_utf8: tuple[tuple[int, int], ...] = ()
+    start: int
+    analog: int
+    scale: float
+    order: str
+    dec: bool
 
 
 def read_c3d_header(path: Path) -> C3DHeader:
@@ -95,8 +103,7 @@ def _checked(path: Path, file: BinaryIO, size: int) -> C3DHeader:
     points, analog, first, last = struct.unpack_from(f"{order}4H", head, 2)
     (data_block,) = struct.unpack_from(f"{order}H", head, 16)
     end = min(size, (data_block - 1) * BLOCK) if data_block > head[0] else size
-    section = read_parameters(path, file, at, end, order, dec=processor == _DEC)
-    parameters = section.by_name
+    parameters = read_parameters(path, file, at, end, order, dec=processor == _DEC)
     scale = _number(path, parameters, "POINT:SCALE")
     rate = _number(path, parameters, "POINT:RATE")
     if not (math.isfinite(rate) and rate > 0):
@@ -110,7 +117,8 @@ def _checked(path: Path, file: BinaryIO, size: int) -> C3DHeader:
     _check_analog(path, analog, struct.unpack_from(f"{order}H", head, 18)[0], parameters)
     start, frames = _frames(path, parameters, first, last)
     _check_length(path, size, data_block, frames, (points * 4 + analog) * (4 if scale < 0 else 2))
-    return C3DHeader(points, frames, start, rate, parameters, section.not_utf8)
+    place = ((data_block - 1) * BLOCK, analog, scale, order, processor == _DEC)
+    return C3DHeader(points, frames, start, rate, parameters, *place)
 
 
 def _number(path: Path, parameters: Mapping[str, Parameter], name: str) -> float:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
 
 from armik_sym.errors import MotionFileError
 
@@ -35,23 +37,9 @@ class Parameter:
     texts: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Parameters:
-    """The parameter section.
-
-    Attributes:
-        by_name: The parameters by "GROUP:NAME", in capitals.
-        not_utf8: Stretches of bytes that hold text in another encoding than UTF-8: start and length.
-
-    Source:
-        The C3D file format user guide, Motion Lab Systems (2021).
-    """
-
-    by_name: Mapping[str, Parameter]
-    not_utf8: tuple[tuple[int, int], ...]
-
-
-def read_parameters(path: Path, file: BinaryIO, start: int, end: int, order: str, dec: bool) -> Parameters:
+def read_parameters(
+    path: Path, file: BinaryIO, start: int, end: int, order: str, dec: bool
+) -> dict[str, Parameter]:
     """Read the parameter section, never past its end.
 
     Args:
@@ -63,7 +51,7 @@ def read_parameters(path: Path, file: BinaryIO, start: int, end: int, order: str
         dec: Whether floating-point numbers are those of DEC.
 
     Returns:
-        The parameters.
+        The parameters by "GROUP:NAME", in capitals.
 
     Raises:
         MotionFileError: If a length field points out of the section; names the byte.
@@ -106,8 +94,7 @@ def read_parameters(path: Path, file: BinaryIO, start: int, end: int, order: str
         position = link + step
         if position > len(raw):
             raise walk.error(link, f"the one after {name!r} is said to start at byte {start + position}")
-    named = {f"{groups.get(group, group)}:{name}": parameter for group, name, parameter in found}
-    return Parameters(named, tuple(walk.not_utf8))
+    return {f"{groups.get(group, group)}:{name}": parameter for group, name, parameter in found}
 
 
 class _Walk:
@@ -115,7 +102,6 @@ class _Walk:
 
     def __init__(self, path: Path, raw: bytes, start: int, order: str, dec: bool) -> None:
         self.path, self.raw, self.start, self.order, self.dec = path, raw, start, order, dec
-        self.not_utf8: list[tuple[int, int]] = []
 
     def error(self, position: int, said: str) -> MotionFileError:
         return MotionFileError(
@@ -133,7 +119,6 @@ class _Walk:
         try:
             return raw.decode("utf-8").strip(" \0")
         except UnicodeDecodeError:
-            self.not_utf8.append((self.start + position, count))
             return raw.decode("latin-1").strip(" \0")
 
     def parameter(self, position: int, name: str) -> tuple[Parameter, int]:
@@ -159,8 +144,22 @@ class _Walk:
 
     def numbers(self, data: bytes, kind: int, count: int) -> tuple[float, ...]:
         if kind == 4 and self.dec:
-            # DEC keeps the two halves swapped, with an exponent that is 2 larger.
-            words = struct.unpack(f"<{2 * count}H", data)
-            swapped = struct.pack(f"<{2 * count}H", *(words[i ^ 1] for i in range(2 * count)))
-            return tuple(value / 4.0 for value in struct.unpack(f"<{count}f", swapped))
+            return tuple(from_dec(np.frombuffer(data, dtype="<u2")).tolist())
         return struct.unpack(f"{self.order}{count}{ {1: 'B', 2: 'h', 4: 'f'}[kind] }", data)
+
+
+def from_dec(words: NDArray[np.uint16]) -> NDArray[np.float64]:
+    """Floating-point numbers of DEC machines: the halves swapped, the exponent larger by 2.
+
+    Args:
+        words: Words of 16 bits in the order of the file, last axis of even length 2·k.
+
+    Returns:
+        The numbers, last axis of length k.
+
+    Source:
+        The C3D file format user guide, Motion Lab Systems (2021).
+    """
+    pairs = words.reshape(*words.shape[:-1], -1, 2)
+    bits = pairs[..., 0].astype(np.uint32) << 16 | pairs[..., 1]
+    return bits.view(np.float32).astype(np.float64) / 4.0

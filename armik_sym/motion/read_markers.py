@@ -37,7 +37,7 @@ def read_markers(path: str | os.PathLike[str], unit: str | float | None = None) 
     Raises:
         MotionFileError: If the file is missing, unreadable, cut off or of another form; names line or byte.
         UnitError: If a unit is not declared, unknown, or mixed with others.
-        OptionError: If a unit is given for a file that declares its own, or `ezc3d` is missing for `.c3d`.
+        OptionError: If a unit is given for a file that declares its own.
 
     Source:
         None (see the readers of each form, and `docs/files.md`).

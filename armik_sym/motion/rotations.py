@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armik_sym.errors import HandPathError
 from armik_sym.motion.checks import Place, sample_place
@@ -83,7 +82,7 @@ def quaternions_to_rotations(quaternion_wxyz: Array, place: Place = sample_place
         HandPathError: If a quaternion is not of unit length.
 
     Source:
-        None (elementary).
+        Siciliano et al., Robotics (2009), eq. 2.33.
     """
     with np.errstate(over="ignore"):
         norm = np.linalg.norm(quaternion_wxyz, axis=1)
@@ -94,7 +93,13 @@ def quaternions_to_rotations(quaternion_wxyz: Array, place: Place = sample_place
             f"quaternion of {place(i)} is {quaternion_wxyz[i].tolist()} with length {norm[i]:.6g}, expected "
             f"a unit quaternion (w, x, y, z), 1 ± {_QUATERNION_TOLERANCE:g}"
         )
-    return np.asarray(Rotation.from_quat(quaternion_wxyz[:, [1, 2, 3, 0]]).as_matrix(), dtype=np.float64)
+    w, x, y, z = (quaternion_wxyz / norm[:, None]).T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows, dtype=np.float64), 2, 0)
 
 
 def rotations_to_quaternions(rotation: Array) -> Array:
@@ -110,12 +115,28 @@ def rotations_to_quaternions(rotation: Array) -> Array:
         Unit quaternions, shape (n, 4).
 
     Source:
-        None (elementary).
+        Siciliano et al., Robotics (2009), eq. 2.34-2.35; sign without loss of digits: Shepperd (1978).
     """
-    q = Rotation.from_matrix(rotation).as_quat()[:, [3, 0, 1, 2]]
+    q = _unsigned_quaternions(rotation)
     sign = np.where(np.einsum("ij,ij->i", q[1:], q[:-1]) < 0, -1.0, 1.0)
     first = -1.0 if q[0, 0] < 0 else 1.0
     return np.asarray(q * (first * np.cumprod(np.concatenate(([1.0], sign))))[:, None], dtype=np.float64)
+
+
+def _unsigned_quaternions(rotation: Array) -> Array:
+    """Each from the largest of w², x², y², z², which loses no digits."""
+    R = np.moveaxis(np.asarray(rotation, dtype=np.float64), 0, 2)
+    # Row i of the symmetric matrix 4·q·qᵀ is the quaternion times 4·q_i.
+    trace = R[0, 0] + R[1, 1] + R[2, 2]
+    outer = np.empty((4, 4, R.shape[2]))
+    outer[0, 0] = 1 + trace
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+        outer[i + 1, i + 1] = 1 + 2 * R[i, i] - trace
+        outer[0, i + 1] = outer[i + 1, 0] = R[k, j] - R[j, k]
+        outer[j + 1, k + 1] = outer[k + 1, j + 1] = R[j, k] + R[k, j]
+    largest = np.einsum("iin->ni", outer).argmax(axis=1)
+    q = outer[largest, :, np.arange(R.shape[2])]
+    return np.asarray(q / np.linalg.norm(q, axis=1, keepdims=True))
 
 
 def _deviation(rotation: Array) -> Array:

@@ -124,8 +124,10 @@ def write_trc(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
     ]
     position = recording.position.reshape(n, -1)
     for i, (time, row) in enumerate(zip(recording.time.tolist(), position.tolist(), strict=True)):
-        cells = ("" if math.isnan(value) else from_si(value, factor) for value in row)
-        lines.append("\t".join((str(i + 1), from_si(time, Unit()), *cells)))
+        cells = ["" if math.isnan(value) else from_si(value, factor) for value in row]
+        # OpenSim passes over an empty cell at the end of a line, unless another tab follows it.
+        end = [""] if not cells[-1] else []
+        lines.append("\t".join((str(i + 1), from_si(time, Unit()), *cells, *end)))
     write_lines(file, lines)
 
 

@@ -1,6 +1,6 @@
 """Cutting feasible intervals where a joint with a range of one full turn passes from one limit to the other.
 
-Such a joint is inside its range at every swivel angle, but at its limit it would have to jump by a whole turn.
+Such a joint is inside its range at every swivel angle, but at its limit it would have to jump by a turn.
 """
 
 from __future__ import annotations

@@ -16,7 +16,9 @@ from armik_sym.trajectory.one_curve.go_down import Down, go_down
 from armik_sym.trajectory.one_curve.parameters import curve_parameters
 from armik_sym.trajectory.one_curve.polish import Polished, polish
 from armik_sym.trajectory.one_curve.smoothness import Smoothness, smoothness
+from armik_sym.trajectory.rates import sample_durations
 from armik_sym.trajectory.swivel_problem import SwivelProblem
+from armik_sym.trajectory.whole_turns import in_best_turn
 
 __all__ = ["Outline", "Settled", "SwivelProblem", "joint_guess", "outlines", "polished", "settled"]
 
@@ -36,6 +38,11 @@ class Settled:
     down: Down
     smooth: Smoothness
     value: float
+
+    @property
+    def beside_pole(self) -> bool:
+        """Whether the corridor passes beside a pole of shoulder or wrist."""
+        return bool(self.down.charts.chart.any())
 
 
 def settled(problem: SwivelProblem, outline: Outline) -> Settled:
@@ -59,6 +66,8 @@ def settled(problem: SwivelProblem, outline: Outline) -> Settled:
     everywhere = np.arange(len(time))
     smooth = smoothness(time, problem.weights, problem.aim, problem.posture_cost)
     line, branch, psi = joint_guess(problem, way), band.branch, band.psi
+    if problem.first is None:
+        line = in_best_turn(line, problem.limits.wide, problem.arm.rom, problem.aim, sample_durations(time))
     for _ in range(_REASSIGNMENTS):
         rows = curve_parameters(problem.intervals, everywhere, branch, line)
         down = go_down(problem.library, rows, smooth, psi, lower, upper, line, problem.arm.rom)
@@ -77,9 +86,7 @@ def settled(problem: SwivelProblem, outline: Outline) -> Settled:
     return Settled(down, smooth, down.value / smooth.scale)
 
 
-def polished(
-    problem: SwivelProblem, found: Settled, report: IterationCallback | None = None
-) -> Polished:
+def polished(problem: SwivelProblem, found: Settled, report: IterationCallback | None = None) -> Polished:
     """The same with IPOPT, all limits kept.
 
     Args:

@@ -1,4 +1,4 @@
-"""The whole trajectory in full space: every joint angle of every sample is a variable of one IPOPT problem."""
+"""The whole trajectory in full space: all joint angles of all samples are variables of one IPOPT problem."""
 
 from __future__ import annotations
 

@@ -66,10 +66,10 @@ class TrajectoryOptions:
             to which the solution calls itself ok, in [rad].
         search: "auto" (the swivel map where it fits, otherwise full space), "swivel" (insist on the map) or
             "full-space".
-        n_best: How many genuinely different trajectories are wanted at most, the best first: other
-            corridors of the swivel map or other branches. The others are `Solution.alternatives`.
-        certify: Also compute a lower bound that no trajectory can beat, to about 1 %; takes a second or a few,
-            and tells how far the solution can be from the best one: `Solution.bound`.
+        n_best: How many genuinely different trajectories are wanted at most, the best first: others in
+            other corridors of the swivel map or other branches. The others are `Solution.alternatives`.
+        certify: Also compute a lower bound that no trajectory can beat, to about 1 %; takes a second or a
+            few, and tells how far the solution can be from the best one: `Solution.bound`.
         max_iterations: IPOPT iterations per attempt.
         ipopt_output: Let IPOPT print its iterations.
 

@@ -108,9 +108,7 @@ def smoothness_rows(
     """
     n = len(time)
     speed, bend, hold = smoothness_weights(time, speed_weight, acceleration_weight, posture_weight)
-    rows = [sp.diags_array([-speed, speed], offsets=[0, 1], shape=(n - 1, n))]
-    if n >= 3:
-        rows.append(sp.diags_array(list(bend.T), offsets=[0, 1, 2], shape=(n - 2, n)))
+    rows = [_banded([-speed, speed], n), *([_banded(list(bend.T), n)] if n >= 3 else [])]
     return sp.csr_array(sp.vstack([*rows, sp.diags_array(hold)]))
 
 
@@ -119,7 +117,7 @@ def smoothness_weights(
 ) -> tuple[Array, Array, Array]:
     """The three kinds of squares of the objective.
 
-    √(w_v/h_k)·(q_{k+1} - q_k);  √(w_a s_k)·(D2 q)_k as three factors of q_k, q_{k+1}, q_{k+2};  √(w_p d_k)·q_k.
+    √(w_v/h_k)·(q_{k+1} - q_k);  √(w_a s_k)·(D2 q)_k by three factors;  √(w_p d_k)·q_k.
 
     Args:
         time: As for `smoothness_matrix`, in [s].
@@ -139,3 +137,11 @@ def smoothness_weights(
     factor = np.sqrt(acceleration_weight / share)
     bend = np.column_stack([factor / h[:-1], -factor * (1 / h[:-1] + 1 / h[1:]), factor / h[1:]])
     return np.sqrt(speed_weight / h), bend, np.sqrt(posture_weight * sample_durations(time))
+
+
+def _banded(bands: list[Array], n: int) -> sp.csr_array:
+    """Row k holds the k-th entry of every band, from column k on."""
+    rows, count = len(bands[0]), len(bands)
+    columns = np.arange(rows)[:, None] + np.arange(count)
+    pointers = np.arange(rows + 1) * count
+    return sp.csr_array((np.column_stack(bands).ravel(), columns.ravel(), pointers), shape=(rows, n))

@@ -12,7 +12,7 @@ from armik_sym.arm.model import Arm
 from armik_sym.arm.rate_limit import rate_limit
 from armik_sym.arm.start_posture import check_start
 from armik_sym.compiled.backend import Backend
-from armik_sym.errors import OptionError
+from armik_sym.errors import OptionError, SolverError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.progress import ProgressCallback
 from armik_sym.solution import Requirements, Solution, Timing
@@ -90,7 +90,15 @@ def _outcomes(request: Request) -> tuple[Sequence[Outcome], float]:
         known = (guess,)
     if found.outcomes:
         return found.outcomes, found.compile_time
+    if request.options.search == "swivel":
+        raise SolverError(
+            "no corridor of the swivel map led to a trajectory inside all limits, though every sample can be "
+            'reached on its own. Raise max_speed or max_acceleration, or use search="auto", which goes on in '
+            "full space"
+        )
     outcome = solve_in_full_space(request, known)
+    if found.guesses:
+        outcome = dataclasses.replace(outcome, status=f"{outcome.status} in full space")
     return (outcome,), found.compile_time + outcome.compile_time
 
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import itertools
 import logging
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from armik_sym.compiled.backend import Backend
 from armik_sym.progress import Progress
 from armik_sym.solution.tracking_error import tracking_errors
 from armik_sym.swivel.full_turns import split_at_full_turns
@@ -24,8 +26,8 @@ from armik_sym.trajectory.guess import Guess
 from armik_sym.trajectory.ipopt import IterationCallback
 from armik_sym.trajectory.library import trajectory_library
 from armik_sym.trajectory.nearest_start import nearest_on_curve
-from armik_sym.trajectory.one_curve.parameters import wide_joints
 from armik_sym.trajectory.one_curve.limits import Limits
+from armik_sym.trajectory.one_curve.parameters import wide_joints
 from armik_sym.trajectory.one_curve.polish import Polished
 from armik_sym.trajectory.outcome import Outcome
 from armik_sym.trajectory.posture_cost import posture_cost, preferred_posture
@@ -46,7 +48,8 @@ _BETTER = 1e-6
 # Solutions whose joint angles differ by less than this everywhere are one, in [rad].
 _SAME = 0.02
 # Angles may leave the range of motion by this much for rounding before they are put back, in [rad].
-_ROUNDING = 1e-9
+_ROUNDING = 1e-7
+_NOTHING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +103,10 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
         None (this package); Shimizu et al. (2008) for one sample.
     """
     called = time.perf_counter()
-    libraries = swivel_library(request.backend), trajectory_library(request.backend).library
-    compiled = sum(library.compile_time for library in libraries if library is not None)
+    # Wishes that make no sense for this arm are refused here, before anything runs.
+    preferred_posture(request.arm, request.options.prefer)
+    wishes = posture_cost(request.arm, request.options, request.backend)
+    compiled = _compile(request.backend) + (0.0 if wishes is None else wishes.compile_time)
     compile_time = spent_now(compiled, time.perf_counter() - called)
     request.tell("swivel map")
     map_ = swivel_map(request.arm, request.path, backend=request.backend)
@@ -110,13 +115,21 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
     problem = swivel_problem(request, map_)
     request.tell("global path")
     n_best = request.options.n_best
-    found = outlines(problem) if n_best == 1 else outlines(problem, most=4 * n_best, within=3.0)
+    found = outlines(problem) if n_best == 1 else outlines(problem, most=4 * n_best, within=3.0, kept=3.0)
     guesses = tuple(_guess(problem, outline) for outline in found[:3])
     best = _polish_each(request, problem, found)
     outcomes = [_outcome(request, each) for each in best]
     if request.options.certify and best:
         outcomes[0] = _certified(request, problem, map_, best[0])
     return SwivelOutcome(tuple(outcomes), guesses, compile_time)
+
+
+def _compile(backend: Backend) -> float:
+    """Compile both libraries at the same time; returns the seconds of the one that took longer."""
+    with ThreadPoolExecutor(2) as both:
+        one, other = both.submit(swivel_library, backend), both.submit(trajectory_library, backend)
+        libraries = one.result(), other.result().library
+    return max((library.compile_time for library in libraries if library is not None), default=0.0)
 
 
 def swivel_problem(request: Request, map_: SwivelMap) -> SwivelProblem:
@@ -169,30 +182,34 @@ def _polish_each(request: Request, problem: SwivelProblem, found: list[Outline])
             break
         result = polished(problem, corridor, _reporter(request))
         _log.info("corridor: %s, objective %.6g", result.result.status, result.value)
-        if _is_good(request, result) and not any(np.abs(result.q - k.q).max() < _SAME for k in kept):
+        known = any(np.abs(result.q - other.q).max() < _SAME for other in kept)
+        if _is_good(request, result, corridor.beside_pole) and not known:
             kept.append(result)
     return sorted(kept, key=lambda each: each.value)
 
 
-def _certified(
-    request: Request, problem: SwivelProblem, map_: SwivelMap, best: Polished
-) -> Outcome:
+def _certified(request: Request, problem: SwivelProblem, map_: SwivelMap, best: Polished) -> Outcome:
     """The best trajectory with its bound; where the bound suspects a better one, that is tried, too."""
     request.tell("lower bound")
     bound = certified(problem, map_, request.arm.rom.clip(best.q))
     suspect = suspected(problem, bound)
     if suspect is not None:
-        other = polished(problem, settled(problem, suspect), _reporter(request))
-        if _is_good(request, other) and other.value < (1 - _BETTER) * best.value:
+        corridor = settled(problem, suspect)
+        other = polished(problem, corridor, _reporter(request))
+        if _is_good(request, other, corridor.beside_pole) and other.value < (1 - _BETTER) * best.value:
             best, bound = other, certified(problem, map_, request.arm.rom.clip(other.q))
     return replace(_outcome(request, best), bound=bound)
 
 
-def _is_good(request: Request, result: Polished) -> bool:
+def _is_good(request: Request, result: Polished, beside_pole: bool) -> bool:
+    """Whether limits are kept and, where rounding may have been at work, the hand is where it should be."""
     if not result.result.converged or result.broken:
         return False
-    if request.arm.rom.margin(result.q).min() < -_ROUNDING:
+    outside = -float(request.arm.rom.margin(result.q).min())
+    if outside > _ROUNDING:
         return False
+    if outside <= _NOTHING and not beside_pole:
+        return True  # the closed form itself, untouched: it is exact
     path, o = request.path, request.options
     q = request.arm.rom.clip(result.q)
     shift, turn = tracking_errors(request.arm, q, path.position, path.rotation, Orientation.FULL)

@@ -79,6 +79,7 @@ EXPORT int armik_curve_descend(ptrdiff_t n, const int *chart, real *x, const rea
   real *q = room, *slope = room + 7 * n, *curvature = room + 14 * n, *force = room + 21 * n;
   real *gradient = room + 28 * n, *bands = room + 29 * n, *step = room + 32 * n, *tried = room + 33 * n;
   real shift = 0;
+  if (most < 1) *value = armik_curve_value(n, chart, x, parameters, speed, bend, hold, aim, q);
   for (int done = 1; done <= most; ++done) {
     *value = armik_curve_derivatives(n, chart, x, parameters, speed, bend, hold, aim, q, slope, curvature, force,
                                      gradient, bands);
@@ -108,5 +109,5 @@ EXPORT int armik_curve_descend(ptrdiff_t n, const int *chart, real *x, const rea
     for (ptrdiff_t k = 0; k < n; ++k) x[k] = tried[k];
     shift *= 0.1;
   }
-  return most;
+  return most < 1 ? 0 : most;
 }

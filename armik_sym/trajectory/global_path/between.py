@@ -28,8 +28,8 @@ def with_samples(
 ) -> tuple[Way, Array]:
     """A way with further samples: there, the posture nearest to the straight line from knot to knot.
 
-    Tried are swivel angles around that of the straight line, and those at which the first angle of shoulder or
-    wrist is as on the line: beside a pole they are the ones that count.
+    Tried are swivel angles around that of the straight line, and those at which the first angle of shoulder
+    or wrist is as on the line: beside a pole they are the ones that count.
 
     Args:
         way: The way.
@@ -52,19 +52,14 @@ def with_samples(
     )
     merged = np.argsort(np.concatenate([way.sample, further]), kind="stable")
 
-    def joined(of_way: Array, of_further: Array) -> Array:
-        return np.asarray(np.concatenate([of_way, of_further])[merged])
-
-    return (
-        Way(
-            joined(way.sample, further).astype(np.int64),
-            joined(way.branch, branch).astype(np.int64),
-            np.unwrap(joined(way.psi, psi)),
-            joined(way.q, line),
-            way.cost,
-        ),
-        away,
+    both = Way(
+        np.concatenate([way.sample, further])[merged],
+        np.concatenate([way.branch, branch])[merged],
+        np.unwrap(np.concatenate([way.psi, psi])[merged]),
+        np.concatenate([way.q, line])[merged],
+        way.cost,
     )
+    return both, away
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +87,7 @@ def reassigned(
     reference: Array,
     backend: Backend,
 ) -> Reassigned:
-    """Where the branch changes and beside poles, the branch that comes nearest to what the neighbours ask for.
+    """Where the branch changes and beside poles, the branch that comes nearest to what the neighbours ask.
 
     The two branches of a sample share out the directions in which a motion can pass its pole; when the
     direction turns, a sample can find itself on the wrong one.
@@ -172,8 +167,12 @@ def _across(intervals: FeasibleIntervals, branch: Indices, samples: Indices) -> 
         highest = np.abs(q33[:, :, 0]) + np.hypot(q33[:, :, 1], q33[:, :, 2])
         sines[rows] = 1.0 - highest
     shoulder = sines[:, 0] <= sines[:, 1]
-    turned = signs * np.column_stack([np.ones(len(samples)), np.where(shoulder, -1, 1), np.where(shoulder, 1, -1)])
-    return np.array([np.flatnonzero((intervals.branches == row).all(axis=1))[0] for row in turned], dtype=np.int64)
+    turned = signs * np.column_stack(
+        [np.ones(len(samples)), np.where(shoulder, -1, 1), np.where(shoulder, 1, -1)]
+    )
+    return np.array(
+        [np.flatnonzero((intervals.branches == row).all(axis=1))[0] for row in turned], dtype=np.int64
+    )
 
 
 def _nearest(
@@ -198,7 +197,12 @@ def _nearest(
 
 
 def _tried(
-    further: Indices, before: Indices, after: Indices, line: Array, intervals: FeasibleIntervals, reference: Array
+    further: Indices,
+    before: Indices,
+    after: Indices,
+    line: Array,
+    intervals: FeasibleIntervals,
+    reference: Array,
 ) -> tuple[Indices, Indices, Array]:
     """Samples, branches and swivel angles worth trying."""
     spherical = intervals.curves[0].spherical

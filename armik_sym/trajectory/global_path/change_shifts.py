@@ -35,10 +35,10 @@ _GAIN = 1e-6
 
 
 def with_shifted_changes(problem: SwivelProblem, outline: Outline, smooth: Smoothness) -> Outline:
-    """A smoothed way whose changes of branch or interval are tried one knot earlier and later, while that helps.
+    """A smoothed way whose changes of branch or interval are moved knot by knot while that helps.
 
-    On the wrong side of a change a knot is held at the end of its interval, and the rest with it; Newton steps
-    do not lead across. Only a stretch around the change is smoothed for a trial.
+    On the wrong side of a change a knot is held at the end of its interval, and the rest with it; Newton
+    steps do not lead across. Only a stretch around the change is smoothed for a trial.
 
     Args:
         problem: The problem.
@@ -77,11 +77,15 @@ def _next_intervals(problem: SwivelProblem, way: Way) -> list[tuple[int, float]]
     band = corridor(intervals, way.branch, way.psi, way.q, problem.backend, way.sample)
     found = []
     for row in np.flatnonzero(np.minimum(way.psi - band.lower, band.upper - way.psi) < _AT_END):
-        ends = intervals.of(int(way.sample[row]), int(way.branch[row])).ravel()
+        here = slice(*np.searchsorted(intervals.sample, [way.sample[row], way.sample[row] + 1]))
+        own = intervals.branch[here] == way.branch[row]
+        ends = np.concatenate([intervals.start[here][own], intervals.end[here][own]])
         away = ends - way.psi[row]
         away -= TURN * np.rint(away / TURN)
         beside = away[(np.abs(away) < _GAP) & (np.abs(away) > 2 * _AT_END)]
-        outside = beside[(way.psi[row] + beside < band.lower[row]) | (way.psi[row] + beside > band.upper[row])]
+        outside = beside[
+            (way.psi[row] + beside < band.lower[row]) | (way.psi[row] + beside > band.upper[row])
+        ]
         if outside.size:
             found.append((int(row), float(way.psi[row] + outside[np.abs(outside).argmin()])))
     return found
@@ -93,6 +97,10 @@ def _like_neighbour(
     """The way with one row on the branch of its neighbour, or None if that is not better by enough."""
     if not 0 < row < len(way.sample) - 1 or way.branch[row] == way.branch[like]:
         return None
+    beyond = 2 * row - like
+    other_elbow = (way.branch[row] >= 4) != (way.branch[like] >= 4)
+    if other_elbow and abs(way.sample[beyond] - way.sample[row]) > 1:
+        return None  # the elbow would change its side without any acceleration to show for it
     time = problem.path.time[way.sample[row - 1 : row + 2]]
     share = (time[1] - time[0]) / (time[2] - time[0])
     line = (1 - share) * way.q[row - 1] + share * way.q[row + 1]
@@ -103,9 +111,7 @@ def _like_neighbour(
     if away > _FAR:
         return None
     turn = psi - way.psi[row]
-    return _trial(
-        problem, way, row, branch, psi - TURN * np.rint(turn / TURN), line, smooth, enough
-    )
+    return _trial(problem, way, row, branch, psi - TURN * np.rint(turn / TURN), line, smooth, enough)
 
 
 def _trial(

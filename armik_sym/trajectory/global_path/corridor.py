@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from armik_sym.compiled.backend import Backend
 from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.postures_at import postures_at
+from armik_sym.trajectory.global_path.monotone_cubic import monotone_cubic
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -29,8 +29,8 @@ class Corridor:
         lower: Start of each interval, shape (n,), in [rad]; -inf for the whole circle.
         upper: End of each interval, shape (n,), in [rad].
         branch: Branch of each sample, shape (n,).
-        missed: How far the swivel angle asked for was outside, shape (n,), in [rad]; infinite where the branch
-            has no interval.
+        missed: How far the swivel angle asked for was outside, shape (n,), in [rad]; infinite where the
+            branch has no interval.
     """
 
     psi: Array
@@ -65,12 +65,11 @@ def corridor(
         None (this package).
     """
     n = len(psi)
-    row_of = np.full(len(intervals.empty), -1)
-    row_of[slice(None) if samples is None else samples] = np.arange(n)
     branches = np.broadcast_to(np.asarray(branch, dtype=np.int64), (n,))
-    of = row_of[intervals.sample]
-    chosen = np.flatnonzero((of >= 0) & (intervals.branch == branches[of]))
-    of, start, end = of[chosen], intervals.start[chosen], intervals.end[chosen]
+    of, rows = _rows_of(intervals, np.arange(n) if samples is None else samples)
+    same = intervals.branch[rows] == branches[of]
+    of, chosen = of[same], rows[same]
+    start, end = intervals.start[chosen], intervals.end[chosen]
     start, end = _around(start, end, psi[of])
     missed = np.maximum(np.maximum(start - psi[of], psi[of] - end), 0.0)
     away = missed.copy()
@@ -112,8 +111,16 @@ def interpolated(time: Array, sample: Indices, psi: Array, branch: Indices) -> A
             everywhere[samples] = psi[part[0]]
         else:
             inside = np.clip(time[samples], None, time[sample[part[-1]]])
-            everywhere[samples] = PchipInterpolator(time[sample[part]], psi[part])(inside)
+            everywhere[samples] = monotone_cubic(time[sample[part]], psi[part], inside)
     return everywhere
+
+
+def _rows_of(intervals: FeasibleIntervals, samples: Indices) -> tuple[Indices, Indices]:
+    """All intervals of some samples, and the place of the sample each belongs to; no look at the others."""
+    begin = np.searchsorted(intervals.sample, samples)
+    count = np.searchsorted(intervals.sample, samples, side="right") - begin
+    of = np.repeat(np.arange(len(samples)), count)
+    return of, begin[of] + np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count)
 
 
 def _around(start: Array, end: Array, psi: Array) -> tuple[Array, Array]:

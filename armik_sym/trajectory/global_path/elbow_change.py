@@ -1,8 +1,8 @@
 """What the acceleration of the elbow costs between two knots, with and without a change of its side.
 
-Where a path touches full stretch, |θ| of the elbow goes down to zero and up again: bending on to the same side
-stops and reverses the elbow at once, passing through to the other side (if the range of motion allows it) does
-not. The elbow angle is known at every sample, so both can be told exactly.
+Where a path touches full stretch, |θ| of the elbow goes down to zero and up again: bending on to the same
+side stops and reverses the elbow at once, passing through to the other side (if the range of motion allows
+it) does not. The elbow angle is known at every sample, so both can be told exactly.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.trajectory.rates import acceleration_matrix
+from armik_sym.trajectory.rates import smoothness_weights
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -35,12 +35,12 @@ def elbow_change_costs(theta: Array, time: Array, knots: Indices, weight: float)
     costs = np.zeros((len(knots) - 1, 2, 2))
     if weight == 0 or n < 3:
         return costs
-    second = acceleration_matrix(time)
-    share = 0.5 * weight * 0.5 * (time[2:] - time[:-2])
+    bands = smoothness_weights(time, 0.0, weight, 0.0)[1].T
     kept = np.zeros((2, n))
-    kept[:, 1:-1] = share * np.square((second @ theta.T).T)
+    kept[:, 1:-1] = 0.5 * np.square(
+        bands[0] * theta[:, :-2] + bands[1] * theta[:, 1:-1] + bands[2] * theta[:, 2:]
+    )
     total = np.cumsum(kept, axis=1)  # up to and including a sample
-    bands = [second.diagonal(i) for i in range(3)]
     first, last = knots[:-1], knots[1:]
     for a in (0, 1):
         costs[:, a, a] = total[a][last] - total[a][first]
@@ -49,8 +49,8 @@ def elbow_change_costs(theta: Array, time: Array, knots: Indices, weight: float)
         mixed = np.zeros((2, n))
         early = bands[0] * theta[a, :-2] + bands[1] * theta[a, 1:-1] + bands[2] * theta[b, 2:]
         late = bands[0] * theta[a, :-2] + bands[1] * theta[b, 1:-1] + bands[2] * theta[b, 2:]
-        mixed[0, 1:-1] = share * np.square(early)
-        mixed[1, 1:-1] = share * np.square(late)
+        mixed[0, 1:-1] = 0.5 * np.square(early)
+        mixed[1, 1:-1] = 0.5 * np.square(late)
         j = np.arange(n - 1)
         change = total[a][j] - kept[a][j] + mixed[0][j] + mixed[1][j + 1] - total[b][j + 1]
         change[first] += kept[a][first]  # belongs to the step before: nothing is to be taken back from it

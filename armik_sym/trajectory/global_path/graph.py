@@ -27,7 +27,6 @@ _SLACK = 0.4
 _TYPICAL_FREQUENCY_SQUARED = 10.0
 
 
-
 @dataclass(frozen=True, eq=False)
 class Graph:
     """What the search runs on.

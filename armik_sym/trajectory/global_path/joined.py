@@ -24,9 +24,9 @@ _JOINT = 5.0
 def joined(problem: SwivelProblem, outlines: Sequence[Outline], smooth: Smoothness) -> Outline:
     """The cheapest of some ways, or pieces of them joined if that is cheaper still after smoothing.
 
-    Ways that differ in separate stretches of time are often best each in another stretch. The pieces are found
-    by dynamic programming over the knots, with the way as state; passing from one to another costs by how far
-    they are apart.
+    Ways that differ in separate stretches of time are often best each in another stretch. The pieces are
+    found by dynamic programming over the knots, with the way as state; passing from one to another costs by
+    how far they are apart.
 
     Args:
         problem: The problem.

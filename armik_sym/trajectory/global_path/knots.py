@@ -17,6 +17,9 @@ _HAND_MOTION = 0.15
 # … and this much time passes, in [s].
 _TIME = 0.15
 _FEWEST = 12
+# Short paths can afford that; of what goes beyond so many knots a long path gets this share.
+_SHORT = 60
+_SHARE = 0.7
 # Bend of the elbow below which a motion may change its side there, in [rad] …
 _STRAIGHT = 0.3
 # … and how many samples before and after the least bend become knots.
@@ -44,7 +47,8 @@ def knots(path: HandPath, reach: float) -> Indices:
         turn = 2 * np.arcsin(np.minimum(away / np.sqrt(8), 1.0))
     effort = np.maximum((shift + turn) / _HAND_MOTION, np.diff(path.time) / _TIME)
     covered = np.concatenate([[0.0], np.cumsum(effort)])
-    count = int(min(n - 1, max(np.ceil(covered[-1]), _FEWEST)))
+    wanted = min(covered[-1], _SHORT) + _SHARE * max(covered[-1] - _SHORT, 0.0)
+    count = int(min(n - 1, max(np.ceil(wanted), _FEWEST)))
     even = np.linspace(0.0, covered[-1], count + 1)
     return np.unique(np.concatenate([[0], np.searchsorted(covered, even[1:-1]), [n - 1]])).astype(np.int64)
 
@@ -52,7 +56,8 @@ def knots(path: HandPath, reach: float) -> Indices:
 def straight_arm_knots(intervals: FeasibleIntervals) -> Indices:
     """Samples around those where the arm is straightest, if the elbow can bend to either side there.
 
-    Bending on to the same side and passing through differ by accelerations that only neighbouring samples show.
+    Bending on to the same side and passing through differ by accelerations that only neighbouring samples
+    show.
 
     Args:
         intervals: The feasible intervals.

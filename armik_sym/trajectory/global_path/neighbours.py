@@ -1,4 +1,4 @@
-"""Postures around a way at each of its knots: beside it on its own branch, and across poles and straight arm."""
+"""Postures around a way at each of its knots: on its own branch, and across poles and the straight arm."""
 
 from __future__ import annotations
 
@@ -61,13 +61,11 @@ def neighbours(problem: SwivelProblem, way: Way, step: float, count: int) -> Nei
     Source:
         None (this package).
     """
-    steps = step * np.arange(-count, count + 1)
+    steps = np.asarray(step * np.arange(-count, count + 1), dtype=np.float64)
     parts = [_beside(problem, way, steps)] + [_across_pole(problem, way, steps, i) for i in (0, 1)]
     layer, branch, psi = (np.concatenate([part[i] for part in parts]) for i in range(3))
     wish = way.q[layer]
-    q = postures_at(
-        problem.intervals.curves, way.sample[layer], branch, psi, wish, backend=problem.backend
-    ).q
+    q = postures_at(problem.intervals.curves, way.sample[layer], branch, psi, wish, backend=problem.backend).q
     away = np.abs(q - wish).max(axis=1)
     kept = np.flatnonzero((away < _FARTHEST) & (problem.arm.rom.margin(q).min(axis=1) >= -_OUTSIDE))
     if problem.first is not None:
@@ -76,12 +74,15 @@ def neighbours(problem: SwivelProblem, way: Way, step: float, count: int) -> Nei
 
 
 def _beside(problem: SwivelProblem, way: Way, steps: Array) -> tuple[Indices, Indices, Array]:
-    """Layer, branch and swivel angle of shifted postures on a way's branch and with the elbow on its other side."""
+    """Layer, branch and swivel angle of shifted postures, also with the elbow on its other side."""
     m, branches = len(way.sample), problem.intervals.branches
     bend = np.abs(problem.intervals.curves[0].elbow - problem.intervals.curves[1].elbow)[way.sample]
-    straight = np.flatnonzero(np.abs(bend - TURN * np.rint(bend / TURN)) < 2 * _NEAR)
+    gap = np.diff(way.sample, prepend=-np.inf, append=np.inf)
+    # Between knots farther apart the elbow would change its side without any acceleration to show for it.
+    close = np.maximum(gap[1:], gap[:-1]) == 1
+    straight = np.flatnonzero(close & (np.abs(bend - TURN * np.rint(bend / TURN)) < 2 * _NEAR))
     layer = np.concatenate([np.arange(m), straight])
-    other = _with_signs(branches, branches[way.branch[straight]] * [-1, 1, 1])
+    other = _with_signs(branches, branches[way.branch[straight]] * np.array([-1, 1, 1]))
     branch = np.concatenate([way.branch, other])
     # Bent to the other side, the elbow is on the other side of the line to the wrist.
     middle = way.psi[layer] + np.where(np.arange(len(layer)) < m, 0.0, np.pi)

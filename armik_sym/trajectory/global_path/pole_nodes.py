@@ -42,6 +42,8 @@ def pole_nodes(intervals: FeasibleIntervals, rows: Indices) -> tuple[Indices, Ar
             extreme = np.arctan2(C[:, 2, 8], C[:, 1, 8])
             for half in (0.0, np.pi):
                 which, psi = _around(C, extreme + half)
+                if not which.size:
+                    continue
                 row, angle = _inside(intervals, rows[here], inverse, which, psi)
                 found_row.append(here[row])
                 found_psi.append(angle)
@@ -54,6 +56,8 @@ def _around(C: Array, pole: Array) -> tuple[Indices, Array]:
     distance = np.hypot((C[:, :, 2] * turn).sum(axis=1), (C[:, :, 5] * turn).sum(axis=1))
     through = np.flatnonzero(distance < _THROUGH)
     beside = np.flatnonzero((distance >= _THROUGH) & (distance < _BESIDE))
+    if not beside.size:
+        return through, pole[through]
     alpha = np.arange(_DIRECTIONS) * (np.pi / _DIRECTIONS)
     which = np.repeat(beside, _DIRECTIONS)
     angle = np.tile(alpha, len(beside))[:, None]

@@ -50,8 +50,8 @@ class WaySearch:
     """The cheapest ways through the nodes.
 
     With the cheapest ways to a node from the first layer and from the last, their sum tells what the cheapest
-    way through that node costs. Another way passes where this is least among the neighbours, far from the ways
-    already known.
+    way through that node costs. Another way passes where this is least among the neighbours, far from the
+    ways already known.
 
     Args:
         nodes: The nodes.
@@ -67,7 +67,7 @@ class WaySearch:
         self._nodes, self._cost, self._edges, self._library = nodes, cost, edges, library
         self._forward = shortest_path(nodes.q, cost, nodes.side, nodes.first, edges, library)
         self._backward: Reached | None = None
-        self._valleys: Indices | None = None
+        self._valleys = np.zeros(0, dtype=np.int64)
         self._through = self._forward.total
 
     def cheapest(self) -> Way | None:
@@ -102,10 +102,9 @@ class WaySearch:
             self._backward = _backward(self._nodes, self._cost, self._edges, self._library)
             self._through = self._forward.total + self._backward.total - self._cost
             self._valleys = _valleys(self._nodes, self._through)
-        valleys = self._valleys
         for way in known:
-            valleys = valleys[_distance(self._nodes, valleys, way) > DIFFERENT]
-        self._valleys = valleys
+            self._valleys = self._valleys[_distance(self._nodes, self._valleys, way) > DIFFERENT]
+        valleys = self._valleys
         if not valleys.size or self._through[valleys[0]] > limit:
             return None
         node = int(valleys[0])

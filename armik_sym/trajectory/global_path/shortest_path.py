@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.compiled.build import Library
 from armik_sym.compiled.address import address
+from armik_sym.compiled.build import Library
 from armik_sym.swivel.equivalent_angles import TURN
 
 Array = NDArray[np.float64]
@@ -99,7 +100,7 @@ def shortest_path(
     if library is None:
         return _numpy(q, cost, side, first, edges)
     bounds = first.tolist()
-    flat = np.concatenate([q[a:b].T.ravel() for a, b in zip(bounds[:-1], bounds[1:], strict=True)] or [cost])
+    flat = np.concatenate([q[a:b].T.ravel() for a, b in itertools.pairwise(bounds)] or [cost])
     total, previous = np.empty(len(q)), np.empty(len(q), dtype=np.int64)
     work = np.empty(max(1, int(np.diff(first).max(initial=0))))
     arrays = (

@@ -56,8 +56,6 @@ def smoothed(
     fixed = np.zeros(len(q), dtype=np.bool_) if held is None else held.copy()
     fixed[0] |= problem.first is not None
     lower, upper = np.where(fixed, way.psi, band.lower), np.where(fixed, way.psi, band.upper)
-    down = go_down(
-        problem.library, rows, smooth, way.psi, lower, upper, q, problem.arm.rom, enough=_ENOUGH
-    )
+    down = go_down(problem.library, rows, smooth, way.psi, lower, upper, q, problem.arm.rom, enough=_ENOUGH)
     psi, angles = down.charts.swivel_angles(down.x), down.objective.value(down.x)[1]
     return Outline(replace(way, psi=psi, q=angles), down.value / smooth.scale)

@@ -1,13 +1,14 @@
 """The path through layers of postures that is best with accelerations counted, in C or in NumPy.
 
-Dynamic programming over pairs of postures from neighbouring layers: written out, the square of an acceleration
-has one term for each pair of its three layers, so that one minimum over the first of three is all there is to a
-step.
+Dynamic programming over pairs of postures from neighbouring layers: written out, the square of an
+acceleration has one term for each pair of its three layers, so that one minimum over the first of three is
+all there is to a step.
 """
 
 from __future__ import annotations
 
 import ctypes
+import itertools
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +74,7 @@ def smoothest_path(
 def _numpy(
     q: Array, cost: Array, first: Indices, most: Array, speed: Array, bend: Array
 ) -> tuple[Indices, float]:
-    bounds = [slice(a, b) for a, b in zip(first[:-1], first[1:], strict=True)]
+    bounds = [slice(a, b) for a, b in itertools.pairwise(first)]
     layers, costs = [q[part] for part in bounds], [cost[part] for part in bounds]
     total = costs[0][:, None] + _pairs(layers[0], layers[1], speed[0], most[0]) + costs[1]
     before: list[Indices] = []

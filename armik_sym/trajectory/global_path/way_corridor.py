@@ -45,6 +45,4 @@ def corridor_of(problem: SwivelProblem, way: Way) -> Corridor:
     """
     psi = interpolated(problem.path.time, way.sample, way.psi, way.branch)
     nearest = np.searchsorted(way.sample, np.arange(len(psi)), side="right") - 1
-    return corridor(
-        problem.intervals, way.branch[nearest], psi, joint_guess(problem, way), problem.backend
-    )
+    return corridor(problem.intervals, way.branch[nearest], psi, joint_guess(problem, way), problem.backend)

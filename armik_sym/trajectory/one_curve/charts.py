@@ -1,7 +1,7 @@
 """Coordinates along the curves: the swivel angle, or beside a pole the joint angle that turns fast there.
 
-With v = (q13, q23) of shoulder or wrist, v × v' = B×D + A×D·cos ψ - A×B·sin ψ (A, B, D: the entries of C0, C1,
-C2) is |v|² times the slope of the first angle over ψ. Between its zeros the first angle is monotone and can
+With v = (q13, q23) of shoulder or wrist, v × v' = B×D + A×D·cos ψ - A×B·sin ψ (A, B, D: those of C0, C1, C2)
+is |v|² times the slope of the first angle over ψ. Between its zeros the first angle is monotone and can
 take the place of ψ.
 """
 
@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 from armik_sym.arm.range_of_motion import RangeOfMotion
 from armik_sym.swivel.equivalent_angles import TURN
 from armik_sym.swivel.limit_cuts import zeros
-from armik_sym.trajectory.one_curve.stage import BRANCH, OFFSET, PARTS, REFERENCE, ROOT, SHOULDER, SWIVEL, WRIST
+from armik_sym.trajectory.one_curve.stage import (
+    BRANCH,
+    OFFSET,
+    PARTS,
+    REFERENCE,
+    ROOT,
+    SHOULDER,
+    SWIVEL,
+    WRIST,
+)
 
 Array = NDArray[np.float64]
 
@@ -34,7 +43,7 @@ _POLE = 1e-10
 _AT = 1e-3
 # Beside a pole the rounding of a swivel angle grows into this much of a joint angle at most, in [rad].
 _GROWN = 1e-5
-# Rounding of a joint angle; far from the pole, where it hardly turns, this can be much of the swivel angle, in [rad].
+# Rounding of a joint angle, in [rad]; where it hardly turns this can be much of the swivel angle.
 _ROUNDED = 2e-14
 
 
@@ -150,7 +159,7 @@ def choose_charts(
 def _by_first_angle(
     charts: Charts, kind: int, chosen: NDArray[np.int64], angle: Array, rom: RangeOfMotion
 ) -> Array:
-    """Make the first angle of shoulder or wrist the coordinate of some samples; returns their swivel angles."""
+    """Make the first angle of shoulder or wrist the coordinate; returns the swivel angles there."""
     joint = _FIRST[kind - 1]
     near = rom.middle[joint] if rom.width[joint] <= TURN + _NOTHING else angle
     angle = near + _wrapped(angle - near)
@@ -187,7 +196,7 @@ def _by_first_angle(
 
 
 def _keep_in_range(charts: Charts, kind: int, chosen: NDArray[np.int64], rom: RangeOfMotion) -> None:
-    """Draw bounds in where they leave the range of the outer joints by what rounding makes of an interval's end.
+    """Draw bounds in where rounding of an interval's end takes them out of the range of the outer joints.
 
     Beside a pole both joints turn alike, thousands of times as fast as the swivel angle.
     """
@@ -258,7 +267,7 @@ def _of_angle(rows: Array, kind: int, angle: Array) -> Array:
 
 
 def _alongside(rows: Array, kind: int, angle: Array, psi: Array) -> Array:
-    """Positive where ψ, shape (n, m), has this first angle on the row's branch; negative for the opposite one."""
+    """Positive where ψ, shape (n, m), has this first angle on the branch; negative for the opposite one."""
     (x, y), side = _entries(rows, kind), rows[:, BRANCH[0] + kind - 1]
     turn = np.stack([np.ones_like(psi), np.cos(psi), np.sin(psi)])
     vx, vy = (np.einsum("nk,knm->nm", part, turn) for part in (x, y))
@@ -305,13 +314,13 @@ def _first_angle(rows: Array, kind: int, psi: Array, near: Array | float) -> Arr
 
 
 def _turning_curve(rows: Array, kind: int) -> Array:
-    """v × v' as a + b·cos ψ + c·sin ψ."""
+    """V × v' as a + b·cos ψ + c·sin ψ."""
     (ax, bx, dx), (ay, by, dy) = (part.T for part in _entries(rows, kind))
     return np.column_stack([bx * dy - by * dx, ax * dy - ay * dx, -(ax * by - ay * bx)])
 
 
 def _turning(rows: Array, kind: int, psi: Array) -> Array:
-    """v × v', which has the sign of the slope of the first angle."""
+    """V × v', which has the sign of the slope of the first angle."""
     a, b, c = _turning_curve(rows, kind).T
     return np.asarray(a + b * np.cos(psi) + c * np.sin(psi))
 

@@ -41,7 +41,13 @@ class Descent:
 
 
 def descend(
-    objective: CurveObjective, psi: Array, lower: Array, upper: Array, *, iterations: int = 50, enough: float = 1e-9
+    objective: CurveObjective,
+    psi: Array,
+    lower: Array,
+    upper: Array,
+    *,
+    iterations: int = 50,
+    enough: float = 1e-9,
 ) -> Descent:
     """Go down to a minimum inside the intervals.
 
@@ -66,13 +72,14 @@ def descend(
     shift = 0.0
     value = objective.value(psi)[0]
     done = 0
-    for done in range(1, iterations + 1):
+    while done < iterations:
+        done += 1
         at = objective.derivatives(psi)
         value, gradient, bands = at.value, at.gradient, at.bands
         held = ((psi <= lower + _AT_END) & (gradient > 0)) | ((psi >= upper - _AT_END) & (gradient < 0))
         step, shift = _newton_step(gradient, bands, held, shift)
         promised = -float(gradient @ step)
-        if promised <= enough * abs(value):
+        if not promised > enough * abs(value):  # also where something is not a number
             break
         psi_new, value_new = _shorten(objective, psi, value, gradient, step, lower, upper)
         if psi_new is None:
@@ -84,9 +91,7 @@ def descend(
     return Descent(psi, value, done)
 
 
-def _newton_step(
-    gradient: Array, bands: Array, held: NDArray[np.bool_], shift: float
-) -> tuple[Array, float]:
+def _newton_step(gradient: Array, bands: Array, held: NDArray[np.bool_], shift: float) -> tuple[Array, float]:
     """-(H + shift·diag)⁻¹ g over the angles that are free; the shift grows until the matrix is positive."""
     H = bands.copy()
     for i in (1, 2):
@@ -107,7 +112,13 @@ def _newton_step(
 
 
 def _shorten(
-    objective: CurveObjective, psi: Array, value: float, gradient: Array, step: Array, lower: Array, upper: Array
+    objective: CurveObjective,
+    psi: Array,
+    value: float,
+    gradient: Array,
+    step: Array,
+    lower: Array,
+    upper: Array,
 ) -> tuple[Array | None, float]:
     """The longest of the steps 1, ½, ¼ … that lowers the objective enough."""
     t = 1.0

@@ -1,4 +1,4 @@
-"""What a trajectory has to keep besides its intervals: speed, acceleration, the range of joints that turn round."""
+"""What a trajectory has to keep besides its intervals: speed, acceleration, the range of joints that turn."""
 
 from __future__ import annotations
 
@@ -68,10 +68,11 @@ class Limits:
         Source:
             None (lazy constraints).
         """
-        found = {}
+        found: dict[str, Mask] = {}
         for kind, use in self._use(time, q).items():
             if (use > 1.0).any() or kind in watched:
-                found[kind] = (use > _WATCHED).any(axis=1) | watched.get(kind, False)
+                near: Mask = np.asarray((use > _WATCHED).any(axis=1))
+                found[kind] = np.logical_or(near, watched[kind]) if kind in watched else near
         return found
 
     def rows(self, time: Array, watched: Mapping[str, Mask]) -> tuple[sp.csr_array, Array, Array]:

@@ -1,19 +1,20 @@
 """The objective over one coordinate per sample with its derivatives, in C or in NumPy.
 
-    ∂f/∂x_k = q'_k·F_k,   ∂²f/∂x_k∂x_l = K_kl q'_k·q'_l + [k = l] q''_k·F_k,   F = Sᵀ(Sq - b),   K = SᵀS.
+∂f/∂x_k = q'_k·F_k,   ∂²f/∂x_k∂x_l = K_kl q'_k·q'_l + [k = l] q''_k·F_k,   F = Sᵀ(Sq - b),   K = SᵀS.
 """
 
 from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from armik_sym.compiled.build import Library
 from armik_sym.compiled.address import address
+from armik_sym.compiled.build import Library
 from armik_sym.symbolic.dense_function import evaluate_rows
 from armik_sym.trajectory.one_curve.smoothness import Smoothness
 from armik_sym.trajectory.one_curve.stage import curve_functions
@@ -114,9 +115,7 @@ class CurveObjective:
         if self._library is not None:
             q, slope, curvature, force = (np.empty((n, _JOINTS)) for _ in range(4))
             gradient = np.empty(n)
-            value = self._call(
-                "armik_curve_derivatives", x, q, slope, curvature, force, gradient, bands
-            )
+            value = self._call("armik_curve_derivatives", x, q, slope, curvature, force, gradient, bands)
             return self._with_postures(Derivatives(value, q, slope, curvature, gradient, bands))
         q, slope, curvature = np.split(self._rows("second", x), 3, axis=1)
         off = self._S @ q - self._b
@@ -153,10 +152,11 @@ class CurveObjective:
         function.restype = ctypes.c_int
         at, value = np.array(x, dtype=np.float64), np.zeros(1)
         bounds = [np.ascontiguousarray(bound, dtype=np.float64) for bound in (lower, upper)]
+        arrays: list[NDArray[Any]] = [self._chart, at, self._parameters, *self._weights, *bounds]
         room = np.empty(_ROOM * self.n)
         steps = function(
             ctypes.c_ssize_t(self.n),
-            *(address(array) for array in (self._chart, at, self._parameters, *self._weights, *bounds)),
+            *(address(array) for array in arrays),
             ctypes.c_int(iterations),
             ctypes.c_double(enough),
             address(value),
@@ -198,5 +198,5 @@ class CurveObjective:
         function = getattr(self._library.handle, name)  # type: ignore[union-attr]
         function.restype = ctypes.c_double
         at = np.ascontiguousarray(x)
-        arrays = (self._chart, at, self._parameters, *self._weights, *outputs)
+        arrays: tuple[NDArray[Any], ...] = (self._chart, at, self._parameters, *self._weights, *outputs)
         return float(function(ctypes.c_ssize_t(self.n), *(address(array) for array in arrays)))

@@ -13,17 +13,15 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-def curve_parameters(
-    intervals: FeasibleIntervals, sample: Indices, branch: Indices, q: Array
-) -> Array:
+def curve_parameters(intervals: FeasibleIntervals, sample: Indices, branch: Indices, q: Array) -> Array:
     """Rows of parameters for samples on given branches.
 
     Args:
         intervals: The feasible intervals, with their curves.
         sample: Samples, shape (m,).
         branch: Branch of each, shape (m,).
-        q: A posture on each curve or near it, shape (m, dof), in [rad]: decides among angles 2π apart where the
-            range of motion does not.
+        q: A posture on each curve or near it, shape (m, dof), in [rad]: decides among angles 2π apart where
+            the range of motion does not.
 
     Returns:
         Shape (m, SIZE).

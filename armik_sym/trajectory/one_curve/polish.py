@@ -21,12 +21,14 @@ _WARM = {
     "mu_init": 1e-9,
     "bound_mult_init_method": "mu-based",
     "bound_push": 1e-10,
-    "bound_frac": 1e-10,
-    # The gradient of what is left carries the rounding of second differences: twice below this is converged.
-    "acceptable_tol": 1e-5,
-    "acceptable_iter": 2,
+    # A share of narrow intervals, as IPOPT does by itself: 1e-10 of them is nothing beside rounding, and
+    # IPOPT 3.14 crashes where it begins exactly on a bound.
+    "bound_frac": 1e-2,
+    # The gradient carries the rounding of second differences: below this it is converged.
+    "acceptable_tol": 1e-6,
+    "acceptable_iter": 1,
 }
-_LIMITED = {"mu_strategy": "adaptive", "bound_push": 1e-8, "bound_frac": 1e-8, "acceptable_tol": 1e-5}
+_LIMITED = {"mu_strategy": "adaptive", "bound_push": 1e-8, "bound_frac": 1e-2, "acceptable_tol": 1e-5}
 
 # Bounds nearer to each other than this leave no freedom, in [rad].
 _NO_ROOM = 1e-9
@@ -64,7 +66,7 @@ def polish(
     output: bool = False,
     report: IterationCallback | None = None,
 ) -> Polished:
-    """Bring swivel angles from the end of the way down to the optimum, limits on rates only where they matter.
+    """Bring swivel angles from the end of the way down to the optimum, limits only where they matter.
 
     Args:
         down: The end of the way down.
@@ -92,6 +94,8 @@ def polish(
     # Without any freedom every sample has one posture only, and there is nothing to be solved.
     result = IpoptResult(x, down.value, "Only_One_Trajectory", 0, True)
     iterations, watched = down.iterations, dict[str, Mask]()
+    value, q = objective.value(x)
+    broken = limits.broken(time, q)
     for _ in range(_ROUNDS if free.any() else 0):
         matrix, least, most = limits.rows(time, watched)
         problem = OneCurveProblem(objective, matrix)
@@ -107,10 +111,9 @@ def polish(
         problem.raise_error()
         iterations += result.iterations
         x = np.clip(result.x, lower, upper)
-        q = objective.value(x)[1]
-        if not result.converged or not limits.broken(time, q):
+        value, q = objective.value(x)
+        broken = limits.broken(time, q)
+        if not result.converged or not broken:
             break
         watched = limits.to_watch(time, q, watched)
-    value, q = objective.value(x)
-    broken = limits.broken(time, q)
     return Polished(charts.swivel_angles(x), q, value / smooth.scale, result, iterations, broken)

@@ -8,6 +8,7 @@ Every point of it tracks the path exactly. Nothing is compiled for a length: Cas
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import Any
 
@@ -86,15 +87,16 @@ class OneCurveProblem:
         return _Called(name, inputs, outputs, guarded)
 
     def _derivatives(self, psi: Array) -> Derivatives:
-        """Derivatives at a point; IPOPT asks for gradient and Hessian at the same ones."""
+        """Everything at a point; IPOPT asks for all of it at nearly every point, one after the other."""
         if self._at is None or not np.array_equal(self._at[0], psi):
             self._at = (psi.copy(), self._objective.derivatives(psi))
         return self._at[1]
 
     def _evaluate(self, inputs: list[Array], outputs: list[Array]) -> None:
-        outputs[0][0], q = self._objective.value(inputs[0])
+        at = self._derivatives(inputs[0])
+        outputs[0][0] = at.value
         if self._rows.shape[0]:
-            outputs[1][:] = (self._rows @ q).ravel()
+            outputs[1][:] = (self._rows @ at.q).ravel()
 
     def _evaluate_gradient(self, inputs: list[Array], outputs: list[Array]) -> None:
         at = self._derivatives(inputs[0])
@@ -118,7 +120,11 @@ class _Called(ca.Callback):
     """A CasADi Function that calls Python with the arrays themselves, nothing copied."""
 
     def __init__(
-        self, name: str, inputs: list[Any], outputs: list[Any], evaluate: Callable[[list[Array], list[Array]], bool]
+        self,
+        name: str,
+        inputs: list[Any],
+        outputs: list[Any],
+        evaluate: Callable[[list[Array], list[Array]], bool],
     ) -> None:
         ca.Callback.__init__(self)
         self._in, self._out, self._evaluate = inputs, outputs, evaluate
@@ -150,6 +156,7 @@ def _array(buffer: Any, pattern: Any) -> Array:
     return np.zeros(pattern.nnz()) if buffer is None else np.frombuffer(buffer, dtype=np.float64)
 
 
+@functools.lru_cache(maxsize=4)
 def _five_bands(n: int) -> tuple[Any, NDArray[np.int64]]:
     """Upper triangle with three bands, and where its entries are in an array (3, n) of bands."""
     row = np.concatenate([np.arange(n - i) for i in range(min(3, n))])

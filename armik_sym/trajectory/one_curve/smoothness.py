@@ -50,9 +50,9 @@ class Smoothness:
             None (bookkeeping).
         """
         n = len(self.hold)
-        rows = [sp.diags_array([-self.speed, self.speed], offsets=[0, 1], shape=(n - 1, n))]
+        rows = [sp.diags_array(np.array([-self.speed, self.speed]), offsets=[0, 1], shape=(n - 1, n))]
         if n >= 3:
-            rows.append(sp.diags_array(list(self.bend.T), offsets=[0, 1, 2], shape=(n - 2, n)))
+            rows.append(sp.diags_array(self.bend.T, offsets=[0, 1, 2], shape=(n - 2, n)))
         return sp.csr_array(sp.vstack([*rows, sp.diags_array(self.hold)]))
 
 

@@ -1,6 +1,6 @@
 """Joint angles of one sample along its curve, with two exact derivatives, compiled once for all arms.
 
-On one branch all angles are functions of the swivel angle ψ: with Rz(α)·Ry(β)·Rz(γ) = C0 + C1·cos ψ + C2·sin ψ,
+On one branch all angles are functions of the swivel angle: with Rz(α)·Ry(β)·Rz(γ) = C0 + C1 cos ψ + C2 sin ψ,
 
     α = atan2(±q23, ±q13),  β = atan2(±√(q13² + q23²), q33),
     γ = atan2(q21·cos α - q11·sin α, q22·cos α - q12·sin α).
@@ -18,6 +18,7 @@ import functools
 
 import casadi as ca
 
+from armik_sym.swivel.constants import TURN
 from armik_sym.symbolic.dense_function import dense_function
 from armik_sym.symbolic.row_order import row_major
 
@@ -47,7 +48,7 @@ def curve_angles(coordinate: ca.SX, parameters: ca.SX, chart: int) -> ca.SX:
         SX of shape (7, 1), in [rad].
 
     Source:
-        Siciliano et al., Robotics (2009), eq. 2.19-2.20, over C0, C1, C2; Shimizu et al. (2008) for ψ of an angle.
+        Siciliano et al., Robotics (2009), eq. 2.19-2.20, over C0, C1, C2; Shimizu et al. (2008).
     """
     reference = parameters[slice(*REFERENCE)]
     groups = [
@@ -60,7 +61,9 @@ def curve_angles(coordinate: ca.SX, parameters: ca.SX, chart: int) -> ca.SX:
     for i, (C, offset) in enumerate(zip(groups, ca.vertsplit(parameters[slice(*OFFSET)]), strict=True)):
         Q = C[0] + C[1] * ca.cos(psi) + C[2] * ca.sin(psi)
         near = reference[4 * i : 4 * i + 3] + ca.vertcat(0, offset, 0)
-        three = _from_first(Q, near, coordinate) if chart == i + 1 else _three(Q, near, parameters[BRANCH[0] + i])
+        three = (
+            _from_first(Q, near, coordinate) if chart == i + 1 else _three(Q, near, parameters[BRANCH[0] + i])
+        )
         angles += [three[0], three[1] - offset, three[2]]
     return ca.vertcat(*angles[:3], reference[3], *angles[3:])
 
@@ -115,6 +118,6 @@ def curve_functions() -> dict[str, ca.Function]:
 
 
 def _near(reference: ca.SX, sine: ca.SX, cosine: ca.SX) -> ca.SX:
-    """The angle with this sine and cosine (of any common size) less than half a turn from a reference."""
-    c, s = ca.cos(reference), ca.sin(reference)
-    return reference + ca.atan2(sine * c - cosine * s, cosine * c + sine * s)
+    """The angle with this sine and cosine (of any common size) at most half a turn from a reference."""
+    angle = ca.atan2(sine, cosine)
+    return angle + TURN * ca.floor((reference - angle) / TURN + 0.5)
