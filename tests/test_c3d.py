@@ -210,7 +210,7 @@ def test_without_ezc3d_files_can_be_read_and_the_extra_for_writing_is_named(
 
 
 def converted(good: bytes, form: str, processor: int) -> bytes:
-    """The same file as another machine writes it: whole numbers, or the bytes of MIPS or DEC."""
+    """The same file as another machine writes it: whole numbers, or those of DEC."""
     raw, data = bytearray(good), (struct.unpack_from("<H", good, 16)[0] - 1) * 512
     values = np.frombuffer(good, "<f4", count=10 * 12, offset=data)
     if form == "whole":

@@ -147,7 +147,8 @@ import json, sys
 import opensim
 table = opensim.TimeSeriesTableVec3(sys.argv[1])
 rows = [[[float(cell[k]) for k in range(3)] for cell in
-         (table.getRowAtIndex(i)[j] for j in range(table.getNumColumns()))] for i in range(table.getNumRows())]
+         (table.getRowAtIndex(i)[j] for j in range(table.getNumColumns()))]
+        for i in range(table.getNumRows())]
 print("RESULT", json.dumps({"names": list(table.getColumnLabels()), "rows": rows,
       "time": list(table.getIndependentColumn()), "unit": table.getTableMetaDataAsString("Units"),
       "rate": table.getTableMetaDataAsString("DataRate")}))

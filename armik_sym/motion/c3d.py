@@ -28,8 +28,9 @@ _WORDS = 2
 def read_c3d(path: str | os.PathLike[str]) -> MarkerRecording:
     """Read the points of a `.c3d` file.
 
-    All lengths the file states are held against its own length first. A point is missing where its residual is negative or a coordinate is NaN. t = (frame - 1) / rate. The
-    rate is the shortest decimal that the file's 32-bit number stands for (59.94, not 59.93999863).
+    All lengths the file states are held against its own length first. A point is missing where its
+    residual is negative or a coordinate is NaN. t = (frame - 1) / rate. The rate is the shortest decimal
+    that the file's 32-bit number stands for (59.94, not 59.93999863).
 
     Args:
         path: The file.
