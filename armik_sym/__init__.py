@@ -22,12 +22,33 @@ if TYPE_CHECKING:
         RangeOfMotion,
         catalog,
         load_arm,
+        save_urdf,
         segment_lengths,
     )
+    from armik_sym.comparison import Comparison, compare, constant_swivel
     from armik_sym.compiled import Kinematics, compile
     from armik_sym.emitting import emit_c
     from armik_sym.errors import ArmikError
-    from armik_sym.motion import HandPath, load_task, read_path, task_names, write_path
+    from armik_sym.fitting import FittedArm, fit_arm
+    from armik_sym.motion import (
+        BvhMotion,
+        HandPath,
+        JointMotion,
+        MarkerRecording,
+        StorageTable,
+        load_task,
+        read_bvh,
+        read_markers,
+        read_motion,
+        read_path,
+        read_storage,
+        task_names,
+        write_bvh,
+        write_markers,
+        write_motion,
+        write_path,
+        write_storage,
+    )
     from armik_sym.progress import Progress
     from armik_sym.solution import Solution
     from armik_sym.solving import methods, solve
@@ -36,31 +57,49 @@ if TYPE_CHECKING:
 __all__ = [
     "Arm",
     "ArmikError",
+    "BvhMotion",
+    "Comparison",
     "DHChain",
     "DHConvention",
     "DHLink",
+    "FittedArm",
     "HandPath",
+    "JointMotion",
     "JointType",
     "Kinematics",
+    "MarkerRecording",
     "Progress",
     "RangeOfMotion",
     "Solution",
+    "StorageTable",
     "SwivelMap",
     "__version__",
     "catalog",
+    "compare",
     "compile",
+    "constant_swivel",
     "elbow",
     "emit_c",
+    "fit_arm",
     "load_arm",
     "load_task",
     "methods",
+    "read_bvh",
+    "read_markers",
+    "read_motion",
     "read_path",
+    "read_storage",
+    "save_urdf",
     "segment_lengths",
     "solve",
     "swivel_map",
     "symbolic",
     "task_names",
+    "write_bvh",
+    "write_markers",
+    "write_motion",
     "write_path",
+    "write_storage",
 ]
 
 # Where each public name lives. Loaded when first used: the command line answers --help, and reports a
@@ -68,12 +107,18 @@ __all__ = [
 _HOMES = {
     "armik_sym.arm": (
         "Arm", "DHChain", "DHConvention", "DHLink", "JointType", "RangeOfMotion", "catalog", "load_arm",
-        "segment_lengths",
+        "save_urdf", "segment_lengths",
     ),
+    "armik_sym.comparison": ("Comparison", "compare", "constant_swivel"),
     "armik_sym.compiled": ("Kinematics", "compile"),
     "armik_sym.emitting": ("emit_c",),
     "armik_sym.errors": ("ArmikError",),
-    "armik_sym.motion": ("HandPath", "load_task", "read_path", "task_names", "write_path"),
+    "armik_sym.fitting": ("FittedArm", "fit_arm"),
+    "armik_sym.motion": (
+        "BvhMotion", "HandPath", "JointMotion", "MarkerRecording", "StorageTable", "load_task", "read_bvh",
+        "read_markers", "read_motion", "read_path", "read_storage", "task_names", "write_bvh",
+        "write_markers", "write_motion", "write_path", "write_storage",
+    ),
     "armik_sym.progress": ("Progress",),
     "armik_sym.solution": ("Solution",),
     "armik_sym.solving": ("methods", "solve"),

@@ -40,6 +40,10 @@ class MotionFileError(ArmikError, ValueError):
     """A motion file cannot be read, is cut off, or does not declare what is needed."""
 
 
+class RecordingError(ArmikError, ValueError):
+    """A marker recording holds values that make no recording, or lacks what is asked of it."""
+
+
 class LimitError(ArmikError, ValueError):
     """A posture leaves the range of motion, or limits contradict each other."""
 
@@ -106,3 +110,7 @@ class CompilerWarning(ArmikWarning):
 
 class CacheWarning(ArmikWarning):
     """The per-user cache folder cannot be used; compiled code lives in a temporary folder."""
+
+
+class MotionFileWarning(ArmikWarning):
+    """A motion file contradicts itself in a way that can be lived with, such as frames it promised."""

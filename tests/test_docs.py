@@ -19,7 +19,7 @@ import armik_sym as ak
 REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = REPOSITORY / "armik_sym"
 SOURCES = sorted(PACKAGE.rglob("*.py"))
-EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-46-8]_*.py"))
+EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-46-9]_*.py"))
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -122,9 +122,11 @@ LAYERS = [
     "compiled",
     "swivel",
     "motion",
+    "fitting",
     "solution",
     "pointwise",
     "trajectory",
+    "comparison",
     "report",
     "cli",
 ]
@@ -135,10 +137,12 @@ MAY_USE = {
     "compiled": {"arm", "symbolic"},
     "swivel": {"arm", "symbolic", "compiled", "motion"},
     "motion": {"arm"},
+    "fitting": {"arm", "swivel", "motion"},
     "solution": {"arm", "symbolic", "motion"},
     "pointwise": {"arm", "symbolic", "compiled", "motion", "solution"},
     "trajectory": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
-    "report": {"arm", "symbolic", "swivel", "motion", "solution"},
+    "comparison": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
+    "report": {"arm", "symbolic", "swivel", "motion", "solution", "comparison"},
     "cli": {
         "arm",
         "symbolic",
@@ -148,6 +152,8 @@ MAY_USE = {
         "solution",
         "pointwise",
         "trajectory",
+        "fitting",
+        "comparison",
         "report",
     },
 }

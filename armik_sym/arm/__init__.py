@@ -7,6 +7,7 @@ from armik_sym.arm.load_arm import load_arm
 from armik_sym.arm.model import Arm
 from armik_sym.arm.range_of_motion import RangeOfMotion
 from armik_sym.arm.segment_lengths import segment_lengths
+from armik_sym.arm.urdf import save_urdf
 
 __all__ = [
     "Arm",
@@ -17,5 +18,6 @@ __all__ = [
     "RangeOfMotion",
     "catalog",
     "load_arm",
+    "save_urdf",
     "segment_lengths",
 ]

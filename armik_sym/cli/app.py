@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from armik_sym._version import __version__
+from armik_sym.cli.compare import compare
+from armik_sym.cli.convert import convert
 from armik_sym.cli.demo import demo
 from armik_sym.cli.doctor import doctor
 from armik_sym.cli.emit_c import emit_c
@@ -25,7 +27,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-for command in (demo, solve, emit_c, doctor):
+for command in (demo, solve, compare, convert, emit_c, doctor):
     app.command(no_args_is_help=False)(command)
 
 

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from armik_sym.errors import MotionFileError
 
+_HEAD = 2**20
+_LARGEST = 256 * 2**20
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 
 
@@ -67,13 +69,29 @@ def write_lines(path: Path, lines: list[str]) -> None:
 
 
 def _read_bytes(path: Path) -> bytes:
+    """All bytes, or only the first of a file that cannot be text, so that garbage is refused early."""
     try:
-        return path.read_bytes()
+        with path.open("rb") as file:
+            head = file.read(_HEAD)
+            if b"\0" in head:
+                return head
+            if len(head) == _HEAD and b"\n" not in head and b"\r" not in head:
+                raise MotionFileError(
+                    f"{path}: line 1 is longer than {_HEAD} bytes: this is no table of numbers"
+                )
+            raw = bytearray(head)
+            while len(raw) <= _LARGEST and (more := file.read(16 * _HEAD)):
+                raw += more
     except FileNotFoundError:
         raise MotionFileError(f"{path}: no such file") from None
+    except MotionFileError:
+        raise
     except (OSError, ValueError) as error:
         if path.is_dir():
             raise MotionFileError(f"{path}: is a folder, expected a file") from None
         raise MotionFileError(
             f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}"
         ) from None
+    if len(raw) > _LARGEST:
+        raise MotionFileError(f"{path}: has more than {_LARGEST // 2**20} MiB, the most that is read at once")
+    return bytes(raw)

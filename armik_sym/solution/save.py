@@ -11,15 +11,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from armik_sym._version import __version__
+from armik_sym.arm.dh import JointType
 from armik_sym.arm.display_units import joint_units
 from armik_sym.errors import MotionFileError
+from armik_sym.motion.storage import write_storage
+from armik_sym.motion.storage_table import angle_table
 
 if TYPE_CHECKING:
     from armik_sym.solution.solution import Solution
 
 
 def save(solution: Solution, path: Path) -> Path:
-    """Write a solution as `.csv` or `.npz`; see `Solution.save`.
+    """Write a solution as `.csv`, `.npz`, `.mot` or `.sto`; see `Solution.save`.
 
     Args:
         solution: The solution.
@@ -32,13 +35,18 @@ def save(solution: Solution, path: Path) -> Path:
         MotionFileError: If the ending is unknown or the file cannot be written.
 
     Source:
-        None (file formats of this package).
+        None (file formats of this package); OpenSim documentation, "Storage (.sto) files".
     """
-    writers: dict[str, Callable[[Solution, Path], None]] = {".csv": _write_csv, ".npz": _write_npz}
+    writers: dict[str, Callable[[Solution, Path], None]] = {
+        ".csv": _write_csv,
+        ".mot": _write_storage,
+        ".npz": _write_npz,
+        ".sto": _write_storage,
+    }
     writer = writers.get(path.suffix.lower())
     if writer is None:
         raise MotionFileError(
-            f"{path}: cannot write {path.suffix or 'a file without ending'!r}: valid are .csv, .npz"
+            f"{path}: cannot write {path.suffix or 'a file without ending'!r}: valid are {', '.join(writers)}"
         )
     try:
         with np.errstate(invalid="ignore"):  # angles that are not finite are saved as such
@@ -101,6 +109,18 @@ def _told_by_the_method(solution: Solution) -> dict[str, Any]:
     """What a pointwise method says of each sample: whether it was reached (1 or 0), and its iterations."""
     told = {"reached": solution.reached, "iterations": solution.sample_iterations}
     return {name: values for name, values in told.items() if values is not None}
+
+
+def _write_storage(solution: Solution, path: Path) -> None:
+    rotates = [link.joint is JointType.REVOLUTE for link in solution.arm.chain.moving_links]
+    table = angle_table(solution.time, solution.q, solution.arm.joint_names, rotates)
+    verdict = "ok" if solution.ok else "not ok"
+    write_storage(
+        path,
+        table,
+        f"Solved by armik_sym {__version__}, arm {solution.arm.name}, method {solution.method}: {verdict}\n"
+        "Rotations are in degrees, translations in metres, times in seconds.",
+    )
 
 
 def _write_npz(solution: Solution, path: Path) -> None:

@@ -152,7 +152,9 @@ class Solution:
         return summary(self)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the solution to a file: `.csv` (degrees, units in the header) or `.npz` (SI).
+        """Write the solution to a file: `.csv` (degrees, units in the header), `.npz` (SI), `.mot` or `.sto`.
+
+        `.mot` and `.sto` are those of OpenSim: rotations in degrees, translations in metres.
 
         Args:
             path: The file; its ending chooses the format.

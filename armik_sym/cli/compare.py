@@ -1,0 +1,147 @@
+"""`armik compare`: what methods say a person does, beside what the person did."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from armik_sym.cli.arguments import backend_name
+from armik_sym.cli.compare_input import Recorded, from_angles, from_markers
+from armik_sym.cli.compare_output import say_all, write_comparisons
+from armik_sym.cli.console import say
+from armik_sym.cli.failures import NOT_OK, paragraph
+from armik_sym.cli.output_files import prepare_folder
+from armik_sym.cli.progress_bar import ProgressBar
+from armik_sym.errors import ArmModelError, OptionError, SolverError, UnreachablePathError
+
+if TYPE_CHECKING:
+    from armik_sym.comparison import Comparison
+    from armik_sym.compiled.backend import Backend
+
+_DEFAULT = ("trajectory", "pro-isade", "swivel-constant")
+
+
+def compare(
+    recording: Annotated[
+        Path, typer.Argument(help="Markers (trc, c3d, csv) or, with --arm, joint angles (csv, mot, sto).")
+    ],
+    points: Annotated[
+        Path | None,
+        typer.Option(
+            help="TOML file: which markers are shoulder, elbow, wrist, hand. Default: markers so named."
+        ),
+    ] = None,
+    side: Annotated[str | None, typer.Option(help="left or right, if --points does not say it.")] = None,
+    frame: Annotated[
+        str | None,
+        typer.Option(help="Axes of the recording, as 'x forward, y up', if --points does not say."),
+    ] = None,
+    base: Annotated[str, typer.Option(help="fixed: mean shoulder; moving: shoulder as recorded.")] = "fixed",
+    rom: Annotated[
+        str, typer.Option(help="model: range of motion of the arm; widened: where the person needs more.")
+    ] = "model",
+    cutoff: Annotated[float | None, typer.Option(help="Low-pass filter of the markers, in Hz.")] = None,
+    fill: Annotated[float | None, typer.Option(help="Longest gap of the markers to fill, in s.")] = None,
+    unit: Annotated[
+        str | None, typer.Option(help="Unit of lengths (m, cm, mm), for bvh files, which have none.")
+    ] = None,
+    begin: Annotated[float | None, typer.Option(help="First time to use, in s.")] = None,
+    end: Annotated[float | None, typer.Option(help="Last time to use, in s.")] = None,
+    arm: Annotated[
+        str | None, typer.Option(help="The recording holds joint angles of this arm (a name or a TOML file).")
+    ] = None,
+    method: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Repeatable: a method of armik solve, or swivel-constant (default: "
+            "trajectory, pro-isade, swivel-constant)."
+        ),
+    ] = None,
+    tracking: Annotated[str, typer.Option(help="Of method trajectory: soft or exact.")] = "soft",
+    seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
+    backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("armik_compare"),
+) -> None:
+    """Compare solved motions with what a person did.
+
+    Fits an arm to the markers, solves its hand path from the first measured posture only, by each method, and
+    compares joint angles, swivel of the elbow and its position with the measured ones.
+    swivel-constant keeps the swivel angle of the first posture: what any method should be better than.
+
+    A difference is no error: many postures put the hand on the same path.
+
+    Exit code 0: compared; 1: a method found no solution; 2: error.
+    """
+    chosen_backend = backend_name(backend)
+    if tracking not in ("soft", "exact"):
+        raise OptionError(f"--tracking is {tracking!r}: valid are soft, exact")
+    if arm is None:
+        asked = {"cutoff_hz": cutoff, "fill_gaps": fill, "start": begin, "end": end}
+        recorded = from_markers(recording, points, unit, rom, side=side, frame=frame, base=base, **asked)
+    else:
+        _only_for_markers(
+            {"--points": points, "--side": side, "--frame": frame, "--cutoff": cutoff,
+             "--fill": fill, "--unit": unit, "--begin": begin, "--end": end}
+        )  # fmt: skip
+        recorded = from_angles(recording, arm)
+    wanted = _methods(method, recorded)
+    prepare_folder(out)
+    found, failed = _all(recorded, wanted, tracking, seed, chosen_backend)
+    say_all(recorded, found, failed)
+    written = write_comparisons(recorded, found, failed, out, chosen_backend)
+    say("written: " + ", ".join(str(file) for file in written))
+    if failed:
+        raise typer.Exit(NOT_OK)
+
+
+def _only_for_markers(typed: dict[str, object]) -> None:
+    given = [name for name, value in typed.items() if value is not None]
+    if given:
+        raise OptionError(f"{given[0]} is about markers, but with --arm the recording holds joint angles")
+
+
+def _methods(typed: list[str] | None, recorded: Recorded) -> list[str]:
+    """The methods asked for, each once; by default those the arm can be solved with."""
+    from armik_sym.comparison import predictors
+    from armik_sym.errors import UnknownNameError
+    from armik_sym.swivel.spherical_arm import why_not_spherical
+
+    if typed is None:
+        no_swivel = why_not_spherical(recorded.arm) or recorded.path.rotation is None
+        return [name for name in _DEFAULT if not (name == "swivel-constant" and no_swivel)]
+    for name in typed:
+        if name not in predictors():
+            raise UnknownNameError("method", name, predictors())
+    return list(dict.fromkeys(typed))
+
+
+def _all(
+    recorded: Recorded, wanted: list[str], tracking: str, seed: int, backend: Backend
+) -> tuple[dict[str, Comparison], dict[str, str]]:
+    """The comparison of each method that found a solution, and why the others found none."""
+    from armik_sym.comparison import compare as compared
+    from armik_sym.comparison import predict
+
+    found, failed = {}, {}
+    with ProgressBar(recorded.name, steps=len(wanted)) as progress:
+        for name in wanted:
+            progress.begin(name)
+            try:
+                solution = predict(
+                    recorded.arm,
+                    recorded.path,
+                    recorded.measured.q[0],
+                    name,
+                    tracking="exact" if tracking == "exact" else "soft",
+                    seed=seed,
+                    backend=backend,
+                    progress=progress,
+                )
+            except (SolverError, UnreachablePathError, ArmModelError) as error:
+                failed[name] = paragraph(error)
+            else:
+                found[name] = compared(solution, recorded.measured, backend=backend)
+            progress.finish()
+    return found, failed
