@@ -1,4 +1,4 @@
-"""Large steps between samples, locked joints and joints that turn from limit to limit: the map still finds the best."""
+"""The best through the map where steps are large, joints locked, or turning from limit to limit."""
 
 from __future__ import annotations
 

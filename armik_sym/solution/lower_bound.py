@@ -43,7 +43,8 @@ class LowerBound:
         """What is certified, in one sentence."""
         begins = "begins with the same posture and " if self.known_first else ""
         return (
-            f"No trajectory that {begins}brings the hand to every sample with every joint inside its range of "
-            f"motion, on any branch and with any swivel angles, has an objective below {self.value:.6g}; the best "
-            f"can have at most {100 * self.gap:.2g} % less than the {self.objective:.6g} of this one."
+            f"No trajectory that {begins}brings the hand to every sample with every joint inside its range "
+            "of motion, on any branch and with any swivel angles, has an objective below "
+            f"{self.value:.6g}; the best can have at most {100 * self.gap:.2g} % less than the "
+            f"{self.objective:.6g} of this one."
         )
