@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from random_trajectories import RandomTrajectory, trajectory
@@ -13,6 +15,8 @@ from armik_sym.trajectory.global_path.between import nearest_on_branch, reassign
 from armik_sym.trajectory.global_path.corridor import corridor, interpolated
 from armik_sym.trajectory.global_path.search import Way
 from armik_sym.trajectory.swivel_problem import SwivelProblem
+
+TURN = 2 * np.pi
 
 
 def way_of(problem: SwivelProblem, given: RandomTrajectory, sample: np.ndarray) -> Way:
@@ -61,6 +65,30 @@ def test_corridor_says_how_far_an_angle_is_outside() -> None:
     np.testing.assert_array_equal(found.psi[same], inside.upper[same])
     empty = int(np.flatnonzero(problem.intervals.empty.all(axis=0))[0])
     assert np.isinf(corridor(problem.intervals, empty, way.psi, way.q).missed).all()
+
+
+@pytest.mark.parametrize("number", [3, 7])
+def test_whole_turns_of_a_joint_that_can_make_them_are_no_distance(number: int) -> None:
+    given = trajectory("wide_and_long", number)
+    arm, wide = given.arm, 6
+    assert arm.name.startswith("odd")
+    lower, upper = arm.rom.lower.copy(), arm.rom.upper.copy()
+    upper[wide] = lower[wide] + TURN + 0.5
+    given = replace(given, arm=arm.with_rom(lower, upper))
+    problem = swivel_problem_of(given)
+    way = way_of(problem, given, everything(given))
+    rng = np.random.default_rng(number)
+    psi = way.psi + rng.uniform(-1.5, 1.5, len(way.psi))
+    turned = way.q + TURN * rng.integers(-2, 3, (len(way.q), 1)) * (np.arange(7) == wide)
+    by = corridor(problem.intervals, way.branch, psi, way.q)
+    found = corridor(problem.intervals, way.branch, psi, turned)
+    np.testing.assert_allclose(found.psi, by.psi, atol=1e-12)
+    args = problem.intervals, problem.reference, problem.backend
+    for k in range(0, len(way.q), 5):
+        there = nearest_on_branch(k, int(way.branch[k]), way.q[k], *args)
+        np.testing.assert_allclose(
+            nearest_on_branch(k, int(way.branch[k]), turned[k], *args), there, atol=1e-9
+        )
 
 
 def test_interpolation_meets_its_points_never_overshoots_and_stops_where_the_branch_changes() -> None:

@@ -13,11 +13,12 @@ import armik_sym as ak
 from armik_sym.arm.catalog import alfaiz, ehmcs, human
 from armik_sym.errors import OptionError, ShapeError
 from armik_sym.motion.tasks import load_task, task_names
+from armik_sym.solution.lower_bound import LowerBound
 from armik_sym.swivel.closed_form import position_curve
 from armik_sym.swivel.intervals import FeasibleIntervals, feasible_intervals, intervals_of_curves
 from armik_sym.swivel.reference import transported_reference, wrist_directions
 from armik_sym.swivel.spherical_arm import recognise
-from armik_sym.trajectory.lower_bound import LowerBound, lower_bound
+from armik_sym.trajectory.lower_bound import lower_bound
 
 DEFAULT = (1.0, 0.01, 1e-3)
 WEIGHTS = [DEFAULT, (1.0, 0.0, 0.0), (0.0, 0.01, 1e-3), (0.0, 0.0, 1.0), (0.2, 0.1, 3.0), (1.0, 0.01, 0.0)]

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from armik_sym.swivel.constants import ROUNDING, TURN
 
-__all__ = ["ROUNDING", "TURN", "margin", "nearest_in_range"]
+__all__ = ["ROUNDING", "TURN", "largest_difference", "margin", "nearest_in_range"]
 
 Array = NDArray[np.float64]
 
@@ -50,3 +50,24 @@ def margin(angle: Array, lower: Array, upper: Array) -> Array:
     """
     away = angle - 0.5 * (lower + upper)
     return np.asarray(0.5 * (upper - lower) - np.abs(away - TURN * np.rint(away / TURN)))
+
+
+def largest_difference(q: Array, other: Array, width: Array) -> Array:
+    """How far postures are apart in the joint in which they are farthest apart.
+
+    Joints with more than a full turn take the shorter way round; a range of one turn tells angles 2π apart.
+
+    Args:
+        q: Postures, shape (k, dof), in [rad].
+        other: Others, shape (k, dof), in [rad].
+        width: Widths of the ranges of motion, shape (dof,), in [rad].
+
+    Returns:
+        Shape (k,), in [rad].
+
+    Source:
+        None (definition).
+    """
+    away = q - other
+    turns = np.rint(away / TURN) * (width > TURN + ROUNDING)
+    return np.asarray(np.abs(away - TURN * turns).max(axis=1))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from armik_sym.compiled.backend import Backend
 from armik_sym.swivel.branches import swivel_of_postures
+from armik_sym.swivel.equivalent_angles import largest_difference
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.limit_cuts import zeros
 from armik_sym.swivel.postures_at import postures_at
@@ -189,7 +190,8 @@ def _nearest(
     rom = intervals.curves[0].spherical.arm.rom
     q = postures_at(intervals.curves, sample, branch, psi, backend=backend).q
     row = np.searchsorted(further, sample)
-    away = np.abs(q - line[row]).max(axis=1) + _OUTSIDE * np.maximum(-rom.margin(q).min(axis=1) - 1e-9, 0.0)
+    away = largest_difference(q, line[row], rom.width)
+    away += _OUTSIDE * np.maximum(-rom.margin(q).min(axis=1) - 1e-9, 0.0)
     order = np.lexsort((away, row))
     _, first = np.unique(row[order], return_index=True)
     best = order[first]

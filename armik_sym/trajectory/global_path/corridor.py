@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from armik_sym.compiled.backend import Backend
 from armik_sym.swivel.constants import TURN
+from armik_sym.swivel.equivalent_angles import largest_difference
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.postures_at import postures_at
 from armik_sym.trajectory.global_path.monotone_cubic import monotone_cubic
@@ -78,7 +79,8 @@ def corridor(
         row, sample = of[several], intervals.sample[chosen[several]]
         at = np.clip(psi[row], start[several], end[several])
         q = postures_at(intervals.curves, sample, branches[row], at, backend=backend).q
-        away[several] += np.minimum(np.abs(q - near[row]).max(axis=1), _FAR)
+        width = intervals.curves[0].spherical.arm.rom.width
+        away[several] += np.minimum(largest_difference(q, near[row], width), _FAR)
     order = np.lexsort((away, of))
     row, first = np.unique(of[order], return_index=True)
     best = order[first]
