@@ -9,6 +9,7 @@ import numpy as np
 from armik_sym.arm.display_units import joint_units
 
 if TYPE_CHECKING:
+    from armik_sym.solution.lower_bound import LowerBound
     from armik_sym.solution.solution import Solution
 
 
@@ -48,11 +49,19 @@ def _lines(s: Solution) -> list[str]:
         f"compile {s.timing.compile:.2g} s, solve {s.timing.solve:.2g} s",
     ]
     if s.cost is not None:
-        gap = "" if s.bound is None else f", certified: none costs {100 * s.bound.gap:.2g} % less"
+        gap = "" if s.bound is None else f", certified: {_certificate(s.bound)}"
         lines.append(f"  cost            {s.cost:.6g} 1/s{gap}")
     lines += _other_choices(s)
     lines += [f"  because         {reason}" for reason in s.reasons]
     return lines
+
+
+def _certificate(bound: LowerBound) -> str:
+    """How much cheaper any other trajectory can be, rounded up."""
+    given = " with this start" if bound.known_first else ""
+    percent = 100 * bound.gap
+    digits = 10.0 ** (np.floor(np.log10(percent)) - 1) if percent > 0 else 1.0
+    return f"none{given} is more than {digits * np.ceil(percent / digits - 1e-9):.2g} % cheaper"
 
 
 def _other_choices(s: Solution) -> list[str]:

@@ -97,8 +97,9 @@ def _outcomes(request: Request) -> tuple[Sequence[Outcome], float]:
             "full space"
         )
     outcome = solve_in_full_space(request, known)
-    if found.guesses:
-        outcome = dataclasses.replace(outcome, status=f"{outcome.status} in full space")
+    if _by_swivel(request):
+        without = ", without a bound" if request.options.certify else ""
+        outcome = dataclasses.replace(outcome, status=f"{outcome.status} in full space{without}")
     return (outcome,), found.compile_time + outcome.compile_time
 
 

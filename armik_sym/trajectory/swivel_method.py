@@ -21,6 +21,7 @@ from armik_sym.swivel.spherical_arm import why_not_spherical
 from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.by_swivel import Outline, SwivelProblem, joint_guess, outlines, polished, settled
 from armik_sym.trajectory.certified import certified, suspected
+from armik_sym.trajectory.elbow_rates import check_elbow_rates
 from armik_sym.trajectory.full_space_method import spent_now
 from armik_sym.trajectory.guess import Guess
 from armik_sym.trajectory.ipopt import IterationCallback
@@ -50,6 +51,8 @@ _SAME = 0.02
 # Angles may leave the range of motion by this much for rounding before they are put back, in [rad].
 _ROUNDING = 1e-7
 _NOTHING = 1e-12
+# Samples that miss the range of motion, in [rad], or the reach, in [m], by less are left to full space.
+_BARELY = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,17 +114,28 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
     request.tell("swivel map")
     map_ = swivel_map(request.arm, request.path, backend=request.backend)
     if map_.blocked.size:
+        if _barely(map_):
+            return SwivelOutcome((), (), compile_time)
         raise_unreachable_on_map(map_)
+    check_elbow_rates(request.arm, request.path, map_.intervals, request.max_speed, request.max_acceleration)
     problem = swivel_problem(request, map_)
     request.tell("global path")
     n_best = request.options.n_best
-    found = outlines(problem) if n_best == 1 else outlines(problem, most=4 * n_best, within=3.0, kept=3.0)
+    found = outlines(problem)
+    if n_best > 1:
+        found += outlines(problem, most=4 * n_best, within=3.0, kept=3.0)
     guesses = tuple(_guess(problem, outline) for outline in found[:3])
     best = _polish_each(request, problem, found)
     outcomes = [_outcome(request, each) for each in best]
     if request.options.certify and best:
         outcomes[0] = _certified(request, problem, map_, best[0])
     return SwivelOutcome(tuple(outcomes), guesses, compile_time)
+
+
+def _barely(map_: SwivelMap) -> bool:
+    """Whether blocked samples miss by so little that rounding may be all there is, as at a straight arm."""
+    why = map_.why_blocked(map_.blocked)
+    return bool((why.missing < _BARELY).all() and (why.shortfall < _BARELY).all())
 
 
 def _compile(backend: Backend) -> float:
