@@ -89,7 +89,7 @@ def test_demo_in_a_pipe_writes_everything_and_cuts_nothing(tmp_path):
 
 
 def test_solve_writes_angles_and_figures_and_says_what_they_are_worth(tmp_path):
-    result = run("solve", TASK, "--backend", "vm", "--out", tmp_path / "out", "--seed", "3")
+    result = run("solve", TASK, "--backend", "vm", "--out", tmp_path / "out", "--seed", "3", "--figures")
     assert result.exit_code == 0, result.stderr
     assert result.stdout.startswith("ok: arm ehmcs, 141 samples")
     assert ANSI not in result.stdout
@@ -112,7 +112,9 @@ def test_the_next_best_trajectories_are_written_beside_the_best(tmp_path):
     path = ak.read_path(data_folder() / "tasks" / "playing_ball_path.csv")
     short = tmp_path / "ball.csv"
     ak.write_path(short, ak.HandPath(path.time[::4], path.position[::4], path.rotation[::4]))
-    result = run("solve", short, "--n-best", "3", "--search", "swivel", "--out", tmp_path / "out")
+    result = run(
+        "solve", short, "--n-best", "3", "--search", "swivel", "--out", tmp_path / "out", "--figures"
+    )
     assert result.exit_code == 0, result.stderr
     best = ak.solve(ak.catalog.ehmcs(), ak.read_path(short), n_best=3)
     assert len(best.alternatives) >= 1
@@ -131,14 +133,14 @@ def test_the_next_best_trajectories_are_written_beside_the_best(tmp_path):
 
 @pytest.mark.parametrize("orientation", ["none", "pointing"])
 def test_no_swivel_map_is_drawn_where_the_hand_is_free_to_turn(tmp_path, orientation):
-    result = run("solve", TASK, "--orientation", orientation, "--out", tmp_path)
+    result = run("solve", TASK, "--orientation", orientation, "--out", tmp_path, "--figures")
     assert result.exit_code == 0, result.stderr
     assert not list(tmp_path.glob("*swivel_map*"))
     assert "_swivel_map.png" not in result.stdout
 
 
 def test_a_soft_solution_is_drawn_on_the_map_of_its_path(tmp_path):
-    result = run("solve", TASK, "--tracking", "soft", "--out", tmp_path)
+    result = run("solve", TASK, "--tracking", "soft", "--out", tmp_path, "--figures")
     assert result.exit_code == 0, result.stderr
     assert (tmp_path / f"{TASK.stem}_swivel_map.png").exists()
 

@@ -48,6 +48,7 @@ def write_results(
     measured: JointMotion | None = None,
     title: str | None = None,
     backend: Backend = "auto",
+    figures: bool = True,
 ) -> list[Path]:
     """Write a solution and its alternatives as data files and figures.
 
@@ -59,11 +60,12 @@ def write_results(
         measured: Measured motion to draw beside it, or None.
         title: What the motion is, for the figures.
         backend: "auto", "c" or "vm", for the swivel map.
+        figures: Whether figures are drawn, too.
 
     Returns:
-        The files written: `<stem>_solution.<ending>`, `<stem>_joints.png`, `<stem>_hand.png`; for full poses
-        of an arm that has a swivel map `<stem>_swivel_map.png`; for the second-best trajectory
-        `<stem>_solution_2.<ending>` and `<stem>_joints_2.png`, and so on.
+        The files written: `<stem>_solution.<ending>`, for the second-best trajectory
+        `<stem>_solution_2.<ending>`, and so on. With figures also `<stem>_joints.png`, `<stem>_joints_2.png`
+        …, `<stem>_hand.png`, and for full poses of an arm that has a swivel map `<stem>_swivel_map.png`.
 
     Raises:
         MotionFileError: If a file cannot be written.
@@ -71,21 +73,29 @@ def write_results(
     Source:
         None (command line).
     """
+    written = []
+    choices = (solution, *solution.alternatives)
+    for number, each in enumerate(choices, start=1):
+        written += [each.save(folder / f"{stem}_solution{_rank(number)}{ending}") for ending in data_formats]
+    if not figures:
+        return written
+
     from armik_sym.report import hand_path_figure, save_figure, solution_figure
 
-    written = []
-    for number, each in enumerate((solution, *solution.alternatives), start=1):
-        rank = f"_{number}" if number > 1 else ""
+    for number, each in enumerate(choices, start=1):
         about = f"{title}, choice {number}" if title and number > 1 else title
-        written += [each.save(folder / f"{stem}_solution{rank}{ending}") for ending in data_formats]
         joints = solution_figure(each, measured, title=about)
-        written.append(save_figure(joints, folder / f"{stem}_joints{rank}.png"))
+        written.append(save_figure(joints, folder / f"{stem}_joints{_rank(number)}.png"))
     hand = hand_path_figure(solution, title=title)
     written.append(save_figure(hand, folder / f"{stem}_hand.png"))
     map_ = _swivel_map_figure(solution, measured, title, backend)
     if map_ is not None:
         written.append(save_figure(map_, folder / f"{stem}_swivel_map.png"))
     return written
+
+
+def _rank(number: int) -> str:
+    return f"_{number}" if number > 1 else ""
 
 
 def _swivel_map_figure(

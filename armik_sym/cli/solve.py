@@ -53,13 +53,17 @@ def solve(
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help="Further option of the method (SI), repeatable."),
     ] = None,
+    figures: Annotated[
+        bool,
+        typer.Option(help="Also draw joint angles, hand path and swivel map (png); takes longer."),
+    ] = False,
     seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
     backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("armik_out"),
 ) -> None:
     """Solve a hand path.
 
-    Writes the joint angles (csv, npz) and figures (png), and prints what they are worth.
+    Writes the joint angles (csv, npz), with --figures also figures (png), and prints what they are worth.
     With --n-best, NAME_solution_2.csv and so on hold the next best trajectories.
 
     Exit code 0: ok; 1: solved, but not what was asked for; 2: error.
@@ -105,6 +109,7 @@ def solve(
         data_formats=(".csv", ".npz"),
         title=file.name,
         backend=chosen_backend,
+        figures=figures,
     )
     say(str(solution))
     say("  written         " + ", ".join(str(name) for name in written))

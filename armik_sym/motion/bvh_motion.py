@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armik_sym.errors import OptionError, RecordingError, ShapeError, UnknownNameError
 from armik_sym.motion.checks import check_finite, check_shape, float_copy
 from armik_sym.motion.marker_recording import MarkerRecording
 from armik_sym.motion.units import LENGTH_UNITS
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
 
 Array = NDArray[np.float64]
 
@@ -131,6 +134,8 @@ class BvhMotion:
         while index >= 0:
             chain.append(index)
             index = self.joints[index].parent
+        from scipy.spatial.transform import Rotation  # slow to import, and few recordings are of this kind
+
         R = Rotation.identity(len(self.values))
         for index in reversed(chain):
             R = R * self._turn(index)
@@ -174,6 +179,8 @@ class BvhMotion:
         return {channel: first + i for i, channel in enumerate(self.joints[index].channels)}
 
     def _turn(self, index: int) -> Rotation:
+        from scipy.spatial.transform import Rotation  # slow to import, and few recordings are of this kind
+
         R = Rotation.identity(len(self.values))
         for channel, column in self._columns(index).items():
             if channel.endswith("rotation"):

@@ -39,11 +39,8 @@ Array = NDArray[np.float64]
 
 _log = logging.getLogger(__name__)
 
-# Corridors whose outline costs this much more than the best are not worth a closer look.
-_NEARLY_AS_GOOD = 0.05
-_LOOKED_AT = 4
-# Further corridors, for when all of these fail.
-_SPARE = 2
+# Further corridors, for when the best ones fail.
+_SPARE = 3
 # A suspect has to be better by this share to take the place of the best.
 _BETTER = 1e-6
 # Solutions whose joint angles differ by less than this everywhere are one, in [rad].
@@ -186,8 +183,7 @@ def _polish_each(request: Request, problem: SwivelProblem, found: list[Outline])
     n_best = request.options.n_best
     if not found:
         return []
-    near = [o for o in found if o.value <= (1 + _NEARLY_AS_GOOD) * found[0].value][:_LOOKED_AT]
-    chosen = near if n_best == 1 else found
+    chosen = found[:1] if n_best == 1 else found
     corridors = sorted((settled(problem, outline) for outline in chosen), key=lambda each: each.value)
     spare = (settled(problem, outline) for outline in found[len(chosen) :][:_SPARE])
     kept: list[Polished] = []
