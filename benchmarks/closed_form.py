@@ -12,6 +12,7 @@ arrays that stay in cache.
 from __future__ import annotations
 
 import argparse
+import ctypes
 import sys
 import time
 
@@ -19,17 +20,19 @@ import numpy as np
 from trajectory import kinematics_times
 
 import armik_sym as ak
+from armik_sym.compiled.address import address
 from armik_sym.swivel.branches import swivel_of_postures
+from armik_sym.swivel.c_structs import CCurves
 from armik_sym.swivel.closed_form import pose_curve
-from armik_sym.swivel.evaluate import evaluate
 from armik_sym.swivel.geometry import pose_geometry
+from armik_sym.swivel.library import swivel_library
 from armik_sym.swivel.postures_at import postures_at
 from armik_sym.swivel.spherical_arm import SphericalArm, recognise
 
 AIM_POSE = 1e-12  # [m], [rad]
 AIM_POSTURE = 1e-9  # [rad]
 AIM_MULTIPLE = 3.0
-_IN_CACHE = 4_000
+_IN_CACHE = 500
 SIGNS = [(e, s, w) for e in (1, -1) for s in (1, -1) for w in (1, -1)]
 
 
@@ -70,12 +73,23 @@ def posture_time(spherical: SphericalArm, position: np.ndarray, rotation: np.nda
     pose, geometry = np.hstack([p, R.reshape(-1, 9)]), pose_geometry(spherical)
     psi = np.linspace(-3.0, 3.0, _IN_CACHE)
     curves = tuple(pose_curve(spherical, p, R, side) for side in (1, -1))
-    best = [np.inf, np.inf]
-    for _ in range(300):
+    library, best = swivel_library(), [np.inf, np.inf]
+    if library is None:
+        raise SystemExit("this benchmark needs a C compiler")
+    side, reference, out = np.ones(1), spherical.reference, np.empty((_IN_CACHE, 58))
+    inputs = [(pose, 12), (geometry, 0), (side, 0), (reference, 0)]
+    places = [part for array, step in inputs for part in (address(array), ctypes.c_ssize_t(step))]
+    branch, q, sines = np.zeros(_IN_CACHE, dtype=np.int64), np.empty((_IN_CACHE, 7)), np.empty((_IN_CACHE, 2))
+    c_curves, wish = CCurves(*curves), address(None)
+    points = [address(array) for array in (chosen, branch, psi)]
+    for _ in range(2_000):
         began = time.perf_counter()
-        evaluate("swivel_curve", pose, geometry, 1, spherical.reference)
+        library.handle.armik_swivel_curve_rows(ctypes.c_ssize_t(_IN_CACHE), *places, address(out))
         middle = time.perf_counter()
-        postures_at(curves, chosen, 0, psi)
+        library.handle.armik_swivel_postures(
+            *c_curves.arguments, ctypes.c_ssize_t(_IN_CACHE), *points, wish, ctypes.c_ssize_t(0),
+            address(q), address(sines),
+        )  # fmt: skip
         best = [min(best[0], middle - began), min(best[1], time.perf_counter() - middle)]
     return sum(best) / _IN_CACHE
 

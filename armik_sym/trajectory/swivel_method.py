@@ -20,7 +20,6 @@ from armik_sym.swivel.map import SwivelMap, swivel_map
 from armik_sym.swivel.spherical_arm import why_not_spherical
 from armik_sym.symbolic import Orientation
 from armik_sym.trajectory.by_swivel import Outline, SwivelProblem, joint_guess, outlines, polished, settled
-from armik_sym.trajectory.certified import certified, suspected
 from armik_sym.trajectory.elbow_rates import check_elbow_rates
 from armik_sym.trajectory.full_space_method import spent_now
 from armik_sym.trajectory.guess import Guess
@@ -200,6 +199,8 @@ def _polish_each(request: Request, problem: SwivelProblem, found: list[Outline])
 
 def _certified(request: Request, problem: SwivelProblem, map_: SwivelMap, best: Polished) -> Outcome:
     """The best trajectory with its bound; where the bound suspects a better one, that is tried, too."""
+    from armik_sym.trajectory.certified import certified, suspected  # slow to import, and seldom asked for
+
     request.tell("lower bound")
     bound = certified(problem, map_, request.arm.rom.clip(best.q))
     suspect = suspected(problem, bound)

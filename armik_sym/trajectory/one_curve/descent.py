@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
 from armik_sym.trajectory.one_curve.objective import CurveObjective
@@ -93,6 +92,8 @@ def descend(
 
 def _newton_step(gradient: Array, bands: Array, held: NDArray[np.bool_], shift: float) -> tuple[Array, float]:
     """-(H + shift·diag)⁻¹ g over the angles that are free; the shift grows until the matrix is positive."""
+    import scipy.linalg  # slow to import, and the compiled loops do without
+
     H = bands.copy()
     for i in (1, 2):
         H[i, : len(held) - i] *= ~(held[:-i] | held[i:])
