@@ -139,7 +139,7 @@ def parts(arm, path) -> dict[str, float]:
     times = []
     for _ in range(3):
         clock = [time.perf_counter()]
-        problem = swivel_problem(request, swivel_map(arm, path))
+        problem = swivel_problem(request, swivel_map(arm, path), None)
         clock.append(time.perf_counter())
         found = outlines(problem)
         clock.append(time.perf_counter())

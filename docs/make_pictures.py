@@ -13,13 +13,15 @@ IMAGES = Path(__file__).resolve().parent / "images"
 ROOMS = {
     "arm/": (0.5, 0.0, "DH chain, range of motion,\nlengths, catalogue, files"),
     "symbolic/": (0.0, 1.0, "CasADi expressions: pose,\nJacobians, closed forms"),
-    "motion/": (1.0, 1.0, "hand paths and joint angles:\ncsv, bundled tasks"),
+    "motion/": (1.25, 1.0, "paths, angles, markers:\ncsv, trc, mot, c3d, bvh"),
     "elbow/": (-0.55, 2.0, "device angles to\nhuman angles"),
     "compiled/": (0.0, 2.0, "C from expressions:\nemit, compile, cache, load"),
-    "solution/": (1.0, 2.0, "angles that judge themselves:\nerrors, margins, verdict, files"),
+    "solution/": (1.0, 2.0, "angles with errors,\nmargins, verdict, files"),
     "pointwise/": (0.0, 3.0, "one pose after another:\nPro-ISADE, LM, Al-Faiz"),
     "swivel/": (0.52, 3.0, "closed form, exact intervals,\nthe swivel map"),
-    "trajectory/": (0.52, 4.0, "the whole path in one call:\nfirst guess, IPOPT problem"),
+    "trajectory/": (0.52, 4.0, "the whole path in one call:\nglobal search, IPOPT"),
+    "fitting/": (2.0, 4.0, "an arm and its motion\nfrom recorded points"),
+    "comparison/": (1.4, 3.0, "predicted motion\nover measured"),
     "solving.py": (0.1, 5.0, "solve(arm, path, method)"),
     "report/": (1.03, 4.0, "figures"),
     "cli/": (0.6, 6.0, "the command armik"),
@@ -29,17 +31,19 @@ ARROWS = [
     ("motion/", "solution/"), ("compiled/", "swivel/"), ("compiled/", "pointwise/"),
     ("swivel/", "trajectory/"), ("swivel/", "report/"), ("solution/", "trajectory/"),
     ("solution/", "pointwise/"), ("trajectory/", "solving.py"), ("pointwise/", "solving.py"),
-    ("solution/", "report/"), ("solving.py", "cli/"), ("report/", "cli/"),
+    ("solution/", "report/"), ("swivel/", "fitting/"), ("motion/", "fitting/"),
+    ("solution/", "comparison/"), ("comparison/", "report/"), ("solving.py", "cli/"),
+    ("report/", "cli/"), ("fitting/", "cli/"),
 ]  # fmt: skip
 WIDTH, HEIGHT = 0.44, 0.62
 
 
 def architecture() -> Figure:
     """The folders and who uses whom."""
-    figure = Figure(figsize=(10, 8.4), layout="constrained")
+    figure = Figure(figsize=(12.5, 8.4), layout="constrained")
     axes = figure.add_subplot()
     axes.set_axis_off()
-    axes.set(xlim=(-0.82, 1.28), ylim=(-0.45, 6.45))
+    axes.set(xlim=(-0.82, 2.25), ylim=(-0.45, 6.45))
     for name, (x, y, text) in ROOMS.items():
         box = FancyBboxPatch(
             (x - WIDTH / 2, y - HEIGHT / 2), WIDTH, HEIGHT,

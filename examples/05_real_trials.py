@@ -14,10 +14,10 @@ from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
 
-import casadi as ca
 import numpy as np
 
 import armik_sym as ak
+from armik_sym.comparison.elbow import elbow_position
 
 # Torso axes of the recordings (x forward, y up, z right) to the base of the arm (x up, y right, z forward).
 BASE_FROM_TORSO = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
@@ -71,20 +71,13 @@ def load_trial(file: Path) -> Trial:
     return Trial(file.stem, task, arm, path, (points("e") - shoulder) @ to_base.T)
 
 
-def elbow_position(solution: ak.Solution) -> np.ndarray:
-    """Elbow of the solved arm: the origin after the third row, shape (n, 3), in [m]."""
-    expressions = ak.symbolic.express(solution.arm, lengths="baked")
-    elbow = ca.Function("elbow", [expressions.q], [expressions.frames[3][:3, 3]])
-    return np.asarray(elbow(solution.q.T)).T
-
-
 def main(folder: Path) -> int:
     """Solve all trials and print a table per task."""
     rows = defaultdict(list)
     for file in sorted(folder.glob("*.csv")):
         trial = load_trial(file)
         solution = ak.solve(trial.arm, trial.path, tracking="soft")
-        off = np.linalg.norm(elbow_position(solution) - trial.elbow, axis=1)
+        off = np.linalg.norm(elbow_position(solution.arm, solution.q) - trial.elbow, axis=1)
         rows[trial.task].append(
             [
                 1000 * solution.position_error.max(),

@@ -86,7 +86,7 @@ def with_root(rows: Array, root: Array | float) -> Array:
 
 
 def library(backend: str) -> Library | None:
-    return trajectory_library(backend).library
+    return trajectory_library(backend)
 
 
 def bare(n: int, seed: int, time: Array | None = None) -> Smoothness:

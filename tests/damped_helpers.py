@@ -11,9 +11,10 @@ from armik_sym.arm.product_of_transforms import hand_pose
 from armik_sym.compiled.backend import build_or_none
 from armik_sym.compiled.c_constant import Precision
 from armik_sym.compiled.c_source import c_function
+from armik_sym.compiled.hand_written import loop_text
 from armik_sym.compiled.library_source import PRELUDE
 from armik_sym.pointwise.hand_targets import HandTargets
-from armik_sym.pointwise.library import PointwiseLibrary, loop_text, pointwise_functions
+from armik_sym.pointwise.library import PointwiseLibrary, pointwise_functions
 from armik_sym.symbolic import Orientation
 
 LOOPS = (

@@ -37,6 +37,6 @@ def swivel_problem_of(
         aim=arm.rom.middle,
         limits=limits,
         first=first,
-        library=trajectory_library(backend).library,
+        library=trajectory_library(backend),
         backend=backend,
     )

@@ -23,11 +23,12 @@ from compiled_helpers import CC, STRICT, build_strictly, caller, needs_cc
 
 from armik_sym.arm.catalog import alfaiz, ehmcs
 from armik_sym.compiled.c_source import c_function
+from armik_sym.compiled.hand_written import loop_text
 from armik_sym.errors import OptionError, ShapeError
 from armik_sym.pointwise.alfaiz import AlfaizOptions, run_alfaiz
 from armik_sym.pointwise.alfaiz.closed_form import postures_at
 from armik_sym.pointwise.hand_targets import HandTargets
-from armik_sym.pointwise.library import loop_text, pointwise_functions
+from armik_sym.pointwise.library import pointwise_functions
 from armik_sym.symbolic import Orientation
 from armik_sym.symbolic.alfaiz_closed_form import search_functions
 

@@ -14,9 +14,9 @@ from damped_helpers import EXPORTS, LOOPS, compiled, reachable, source_of
 
 from armik_sym.arm import Arm
 from armik_sym.arm.catalog import ehmcs, human
+from armik_sym.compiled.hand_written import loop_text
 from armik_sym.pointwise.damped import LmOptions, SugiharaOptions, run_damped
 from armik_sym.pointwise.damped.settings import DampedSettings
-from armik_sym.pointwise.library import loop_text
 
 pytestmark = needs_cc
 

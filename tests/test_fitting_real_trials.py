@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
+from example_modules import load_example
 
 import armik_sym as ak
 from armik_sym.arm.product_of_transforms import hand_pose
 
-EXAMPLE = Path(__file__).resolve().parent.parent / "examples" / "09_fit_arm.py"
-
 
 @pytest.fixture(scope="module")
 def example() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("fit_arm_example", EXAMPLE)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["fit_arm_example"] = module
-    spec.loader.exec_module(module)
-    return module
+    return load_example("09_fit_arm")
 
 
 @pytest.fixture(scope="module")

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
-import json
 import math
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -14,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from opensim_answers import answer_of_opensim, needs_opensim
 from random_recordings import COORDINATES, names
 from solutions import of_motion
 
@@ -238,19 +235,11 @@ print("RESULT", json.dumps({
 """
 
 
-@pytest.mark.skipif(importlib.util.find_spec("opensim") is None, reason="opensim is not installed")
+@needs_opensim
 @pytest.mark.parametrize("ending", ["mot", "sto"])
 def test_opensim_reads_the_same_numbers(tmp_path: Path, solution, ending: str) -> None:
-    # In a process of its own: opensim bundles another CasADi than the one in use here.
     file = solution.save(tmp_path / f"x.{ending}")
-    done = subprocess.run(
-        [sys.executable, "-c", _ASK_OPENSIM, str(file)],
-        capture_output=True,
-        text=True,
-        check=True,
-        cwd=tmp_path,
-    )
-    answer = json.loads(done.stdout.split("RESULT", 1)[1])
+    answer = answer_of_opensim(_ASK_OPENSIM, file)
     assert answer["names"] == list(solution.arm.joint_names)
     assert (answer["in_degrees"], answer["storage"], answer["size"]) == ("yes", True, 30)
     np.testing.assert_array_equal(answer["time"], solution.time)

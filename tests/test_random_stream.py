@@ -10,8 +10,8 @@ from compiled_helpers import build_strictly, needs_cc
 from hypothesis import given
 from hypothesis import strategies as st
 
+from armik_sym.compiled.hand_written import loop_text
 from armik_sym.compiled.library_source import PRELUDE
-from armik_sym.pointwise.library import loop_text
 from armik_sym.pointwise.random_stream import (
     high_half,
     low_half,

@@ -209,7 +209,7 @@ def test_without_any_compiler_it_works_with_one_warning(monkeypatch, tmp_path):
             library.cache_clear()
         solution = check(ak.solve(EHMCS, DRINKING))
         assert swivel_library() is None
-        assert trajectory_library().library is None
+        assert trajectory_library() is None
         for library in libraries:
             library.cache_clear()
     assert [one.category for one in told if issubclass(one.category, CompilerWarning)] == [CompilerWarning]

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
-import json
-import subprocess
-import sys
 import tempfile
 import warnings
 from pathlib import Path
@@ -13,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from opensim_answers import answer_of_opensim, needs_opensim
 from random_recordings import assert_same, recordings
 
 from armik_sym.errors import ArmikError, MotionFileError, MotionFileWarning, UnitError, UnknownNameError
@@ -155,18 +152,11 @@ print("RESULT", json.dumps({"names": list(table.getColumnLabels()), "rows": rows
 """
 
 
-@pytest.mark.skipif(importlib.util.find_spec("opensim") is None, reason="opensim is not installed")
+@needs_opensim
 def test_opensim_reads_the_same_numbers(tmp_path: Path) -> None:
     recording = read(tmp_path, GOOD)
     write_trc(tmp_path / "y.trc", recording)
-    done = subprocess.run(
-        [sys.executable, "-c", _ASK_OPENSIM, str(tmp_path / "y.trc")],
-        capture_output=True,
-        text=True,
-        check=True,
-        cwd=tmp_path,
-    )
-    answer = json.loads(done.stdout.split("RESULT", 1)[1])
+    answer = answer_of_opensim(_ASK_OPENSIM, tmp_path / "y.trc")
     assert (answer["names"], answer["unit"]) == (["ELB", "WRI"], "mm")
     assert float(answer["rate"]) == 59.94
     np.testing.assert_array_equal(answer["time"], recording.time)

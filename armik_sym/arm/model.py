@@ -133,6 +133,12 @@ class Arm:
         return self.chain.joint_names
 
     @property
+    def rotates(self) -> NDArray[np.bool_]:
+        """Which joints are revolute, the others being prismatic, shape (dof,)."""
+        kinds = [link.joint for link in self.chain.moving_links]
+        return np.array([kind is JointType.REVOLUTE for kind in kinds], dtype=np.bool_)
+
+    @property
     def length_values(self) -> NDArray[np.float64]:
         """Segment lengths in the order of `chain.length_names`, shape (n_lengths,), in [m]."""
         return np.array(list(self.lengths.values()), dtype=np.float64)
@@ -144,9 +150,8 @@ class Arm:
         for link in self.chain.links:
             for value in (link.d, link.a):
                 total += self.lengths[value] if isinstance(value, str) else abs(value)
-        prismatic = [link.joint is JointType.PRISMATIC for link in self.chain.moving_links]
         farthest = np.maximum(np.abs(self.rom.lower), np.abs(self.rom.upper))
-        return total + float(farthest[prismatic].sum())
+        return total + float(farthest[~self.rotates].sum())
 
     def joint_index(self, name: str) -> int:
         """Position of a joint in the posture vector.

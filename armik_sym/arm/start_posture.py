@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.display_units import joint_unit
 from armik_sym.arm.model import Arm
-from armik_sym.errors import LimitError, ShapeError
+from armik_sym.errors import HandPathError, LimitError, ShapeError
 
 Array = NDArray[np.float64]
 
@@ -49,4 +49,30 @@ def check_start(arm: Arm, start: ArrayLike | None) -> Array | None:
             f"its range of motion {arm.rom.lower[i]:.6g} to {arm.rom.upper[i]:.6g} {unit.si} "
             f"({unit.text(arm.rom.lower[i], 4)} to {unit.text(arm.rom.upper[i], 4)}){hint}"
         )
+    return q
+
+
+def finite_posture(arm: Arm, posture: ArrayLike, what: str) -> Array:
+    """A posture with one finite angle per joint, which may be outside the range of motion.
+
+    Args:
+        arm: The arm.
+        posture: Posture, shape (dof,), in [rad].
+        what: The argument, for messages.
+
+    Returns:
+        A copy, shape (dof,), in [rad].
+
+    Raises:
+        ShapeError: If it does not have shape (dof,).
+        HandPathError: If it is not finite.
+
+    Source:
+        None (input check).
+    """
+    q = np.array(posture, dtype=np.float64)
+    if q.shape != (arm.dof,):
+        raise ShapeError(f"{what} has shape {q.shape}, expected ({arm.dof},): {', '.join(arm.joint_names)}")
+    if not np.isfinite(q).all():
+        raise HandPathError(f"{what} is {q.tolist()}, expected finite angles")
     return q

@@ -14,7 +14,7 @@ from armik_sym.cli.console import say
 from armik_sym.cli.failures import NOT_OK, paragraph
 from armik_sym.cli.output_files import prepare_folder
 from armik_sym.cli.progress_bar import ProgressBar
-from armik_sym.errors import ArmModelError, OptionError, SolverError, UnreachablePathError
+from armik_sym.errors import ArmModelError, OptionError, SolverError, UnknownNameError, UnreachablePathError
 
 if TYPE_CHECKING:
     from armik_sym.comparison import Comparison
@@ -105,7 +105,6 @@ def _only_for_markers(typed: dict[str, object]) -> None:
 def _methods(typed: list[str] | None, recorded: Recorded) -> list[str]:
     """The methods asked for, each once; by default those the arm can be solved with."""
     from armik_sym.comparison import predictors
-    from armik_sym.errors import UnknownNameError
     from armik_sym.swivel.spherical_arm import why_not_spherical
 
     if typed is None:

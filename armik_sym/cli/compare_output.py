@@ -108,15 +108,12 @@ def write_comparisons(
         None (command line).
     """
     from armik_sym.comparison.csv_files import write_summary
-    from armik_sym.errors import MotionFileError
+    from armik_sym.motion.text_file import write_lines
     from armik_sym.report import save_figure
 
     stem = Path(recorded.name).stem
     text = folder / f"{stem}_comparison.txt"
-    try:
-        text.write_text(_report(recorded, found, failed), encoding="utf-8")
-    except OSError as error:
-        raise MotionFileError(f"{text}: cannot be written: {error.strerror or error}") from None
+    write_lines(text, [_report(recorded, found, failed)])
     written = [text, write_summary(found, folder / f"{stem}_comparison.csv")]
     for name, comparison in found.items():
         written.append(comparison.save(folder / f"{stem}_{name}.csv"))
@@ -129,7 +126,7 @@ def _report(recorded: Recorded, found: Mapping[str, Comparison], failed: Mapping
     parts = [recorded.name, *([recorded.report] if recorded.report else [])]
     parts += [str(comparison) for comparison in found.values()]
     parts += ["\n".join(_remarks(recorded, found, failed)), _ABOUT]
-    return "\n\n".join(part for part in parts if part) + "\n"
+    return "\n\n".join(part for part in parts if part)
 
 
 def _swivel_map(

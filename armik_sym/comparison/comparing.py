@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from armik_sym.arm.dh import JointType
 from armik_sym.arm.display_units import joint_unit
 from armik_sym.arm.model import Arm
 from armik_sym.comparison.comparison import Comparison
-from armik_sym.comparison.difference import without_turns
 from armik_sym.comparison.elbow import NEAR_LINE, elbow_position, swivels
 from armik_sym.comparison.measured import measured_of
 from armik_sym.comparison.sampling import align
@@ -17,11 +15,12 @@ from armik_sym.compiled.backend import Backend
 from armik_sym.errors import ArmModelError, OptionError
 from armik_sym.motion.joint_motion import JointMotion
 from armik_sym.solution import Solution
+from armik_sym.swivel.constants import TURN
+from armik_sym.swivel.equivalent_angles import without_turns
 from armik_sym.swivel.spherical_arm import recognise
 
 Array = NDArray[np.float64]
 
-_TURN = 2 * np.pi
 # Ranges of motion are often written in degrees: a full turn up to rounding.
 _ROUNDING = 1e-9
 # By how much a measured angle may leave the range of motion without a word, in [rad].
@@ -76,7 +75,7 @@ def compare(
         *resampled,
         *given.notes,
         *_about_samples(q, q_measured),
-        *_outside(arm, given.joints, q_measured),
+        *_outside(arm, given.joints, circular, q_measured),
     ]
     swivel = swivel_apart = elbow = measured_elbow = None
     why = _why_no_elbow(arm, len(given.joints))
@@ -107,8 +106,7 @@ def compare(
 
 def _circular(arm: Arm) -> NDArray[np.bool_]:
     """Joints that can turn round."""
-    turns = [link.joint is JointType.REVOLUTE for link in arm.chain.moving_links]
-    return np.asarray(turns) & (arm.rom.upper - arm.rom.lower >= _TURN - _ROUNDING)
+    return np.asarray(arm.rotates & (arm.rom.upper - arm.rom.lower >= TURN - _ROUNDING))
 
 
 def _why_no_elbow(arm: Arm, measured: int) -> str | None:
@@ -132,12 +130,11 @@ def _about_samples(q: Array, measured: Array) -> list[str]:
     return notes
 
 
-def _outside(arm: Arm, joints: NDArray[np.int64], measured: Array) -> list[str]:
+def _outside(arm: Arm, joints: NDArray[np.int64], circular: NDArray[np.bool_], measured: Array) -> list[str]:
     """Where the person left the range of motion of the arm: there no solution can be where they were."""
     notes = []
     lower, upper = arm.rom.lower[joints], arm.rom.upper[joints]
-    full = _circular(arm)[joints]
-    beyond = np.where(full, 0.0, np.maximum(measured - upper, lower - measured))
+    beyond = np.where(circular, 0.0, np.maximum(measured - upper, lower - measured))
     for column, joint in enumerate(joints):
         over = beyond[:, column]
         out = over > _WORTH_A_WORD

@@ -10,13 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.model import Arm
 from armik_sym.arm.rate_limit import rate_limit
-from armik_sym.comparison.difference import without_turns
+from armik_sym.arm.start_posture import finite_posture
 from armik_sym.compiled.backend import Backend
-from armik_sym.errors import ArmModelError, HandPathError, OptionError, ShapeError
+from armik_sym.errors import ArmModelError, OptionError
 from armik_sym.motion.hand_path import HandPath
+from armik_sym.motion.marker_gaps import runs
 from armik_sym.solution import Requirements, Solution
 from armik_sym.solution.timing import Timing
 from armik_sym.swivel.branches import swivel_of_postures
+from armik_sym.swivel.equivalent_angles import without_turns
 from armik_sym.swivel.intervals import FeasibleIntervals, feasible_intervals
 from armik_sym.swivel.postures_at import postures_at
 from armik_sym.swivel.reference import transported_reference, wrist_directions
@@ -82,8 +84,7 @@ def constant_swivel(
     )
     intervals = feasible_intervals(spherical, path.position, rotation, reference, backend)
     at = swivel_of_postures(spherical, first[None], reference[:1], backend=backend)
-    signs = np.array([at.elbow[0], at.shoulder[0], at.wrist[0]])
-    branch = int(np.flatnonzero((intervals.branches == signs).all(axis=1))[0])
+    branch = int(intervals.branch_of(np.array([[at.elbow[0], at.shoulder[0], at.wrist[0]]]))[0])
     psi, clipped, blocked = _kept(intervals, branch, float(at.psi[0]), len(path))
     rows = np.arange(len(path))
     q = postures_at(intervals.curves, rows, branch, psi, np.tile(first, (len(path), 1)), backend).q
@@ -119,14 +120,7 @@ def _checked(arm: Arm, path: HandPath, start: ArrayLike, zero: str) -> Array:
         raise OptionError(f"path is a {type(path).__name__}, expected a HandPath: use read_path(FILE)")
     if zero not in ("carried", "down"):
         raise OptionError(f"zero is {zero!r}: valid are carried, down")
-    first = np.array(start, dtype=np.float64)
-    if first.shape != (arm.dof,):
-        raise ShapeError(
-            f"start has shape {first.shape}, expected ({arm.dof},): {', '.join(arm.joint_names)}"
-        )
-    if not np.isfinite(first).all():
-        raise HandPathError(f"start is {first.tolist()}, expected finite angles")
-    return first
+    return finite_posture(arm, start, "start")
 
 
 def _down(arm: Arm) -> Array:
@@ -165,7 +159,6 @@ def _status(time: Array, psi: float, clipped: Mask, blocked: Mask) -> str:
 
 def _runs(time: Array, chosen: Mask) -> str:
     """Samples as times: 12 samples (0.1 s to 0.21 s)."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]).astype(np.int8)))
-    runs = [f"{time[a]:.3g} s to {time[b - 1]:.3g} s" for a, b in edges.reshape(-1, 2)]
-    more = f", and {len(runs) - _RUNS_NAMED} more" if len(runs) > _RUNS_NAMED else ""
-    return f"{int(chosen.sum())} samples ({', '.join(runs[:_RUNS_NAMED])}{more})"
+    times = [f"{time[a]:.3g} s to {time[b - 1]:.3g} s" for a, b in runs(chosen)]
+    more = f", and {len(times) - _RUNS_NAMED} more" if len(times) > _RUNS_NAMED else ""
+    return f"{int(chosen.sum())} samples ({', '.join(times[:_RUNS_NAMED])}{more})"

@@ -9,8 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-_TURN = 2 * np.pi
-
 
 @dataclass(frozen=True)
 class Difference:
@@ -60,18 +58,3 @@ def difference_of(time: ArrayLike, apart: ArrayLike) -> Difference:
         bias=float(d.mean()),
         samples=len(d),
     )
-
-
-def without_turns(angle: Array) -> Array:
-    """Angles without whole turns: between -π and π.
-
-    Args:
-        angle: Angles of any shape, in [rad].
-
-    Returns:
-        The same shape, in [rad].
-
-    Source:
-        Definition.
-    """
-    return np.asarray(angle - _TURN * np.rint(angle / _TURN))

@@ -9,10 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.model import Arm
 from armik_sym.arm.product_of_transforms import hand_pose, joint_frames
-from armik_sym.comparison.difference import without_turns
 from armik_sym.compiled.backend import Backend
 from armik_sym.errors import ShapeError
 from armik_sym.swivel.branches import swivel_of_postures
+from armik_sym.swivel.equivalent_angles import without_turns
 from armik_sym.swivel.reference import transported_reference, wrist_directions
 from armik_sym.swivel.spherical_arm import SphericalArm, recognise
 

@@ -15,8 +15,6 @@ from armik_sym.solution import Solution
 
 Array = NDArray[np.float64]
 
-_TWO_TURNS = 4 * np.pi
-
 
 class Measured(NamedTuple):
     """Measured angles of some joints of an arm.
@@ -49,7 +47,7 @@ def measured_of(solution: Solution, measured: JointMotion | ArrayLike) -> Measur
         OptionError: If it is a solution or a file name instead.
         UnknownNameError: If no joint of the motion belongs to the arm.
         ShapeError: If the array does not have one row per sample and one column per joint.
-        HandPathError: If the array holds no number, or numbers that must be degrees.
+        HandPathError: If the array holds no finite number.
 
     Source:
         None (bookkeeping).

@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.arm.display_units import joint_units
 from armik_sym.arm.model import Arm
+from armik_sym.arm.start_posture import finite_posture
 from armik_sym.comparison.constant_swivel import METHOD, constant_swivel
 from armik_sym.compiled.backend import Backend
-from armik_sym.errors import HandPathError, ShapeError, UnknownNameError
+from armik_sym.errors import UnknownNameError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.progress import ProgressCallback
 from armik_sym.solution import Solution
@@ -94,13 +95,7 @@ def first_inside(arm: Arm, first: ArrayLike) -> tuple[Array, str]:
     Source:
         None (this package).
     """
-    posture = np.array(first, dtype=np.float64)
-    if posture.shape != (arm.dof,):
-        raise ShapeError(
-            f"first has shape {posture.shape}, expected ({arm.dof},): {', '.join(arm.joint_names)}"
-        )
-    if not np.isfinite(posture).all():
-        raise HandPathError(f"first is {posture.tolist()}, expected finite angles")
+    posture = finite_posture(arm, first, "first")
     inside = np.clip(posture, arm.rom.lower, arm.rom.upper)
     moved = [
         f"{name.replace('_', ' ')} by {unit.text(abs(by))}"

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.errors import HandPathError, OptionError
+from armik_sym.swivel.equivalent_angles import without_turns
 
 Array = NDArray[np.float64]
 
@@ -115,8 +116,7 @@ def _interpolated(
     near = slack / np.where(gap > 0, gap, 1.0)
     share = np.where(share <= near, 0.0, np.where(share >= 1 - near, 1.0, share))[:, None]
     change = q[after] - q[before]
-    turns = 2 * np.pi * np.rint(change / (2 * np.pi))
-    change = np.where(circular, change - turns, change)
+    change = np.where(circular, without_turns(change), change)
     between = q[before] + share * change
     out = np.where(share == 0, q[before], np.where(share == 1, q[after], between))
     inner = (share[:, 0] > 0) & (share[:, 0] < 1)

@@ -16,6 +16,7 @@ from armik_sym.compiled.backend import Backend, build_or_none
 from armik_sym.compiled.library_source import casadi_library
 from armik_sym.compiled.structure import ArmStructure
 from armik_sym.symbolic import ArmExpressions, Orientation, express, tracking_residual
+from armik_sym.symbolic.dense_function import dense_function
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,16 +79,12 @@ def stage_expressions(arm: ArmExpressions, orientation: Orientation) -> dict[str
     multipliers = ca.SX.sym("multipliers", orientation.equations)
     jacobian = ca.jacobian(tracked.residual, arm.q)
     hessian, _ = ca.hessian(ca.dot(multipliers, tracked.residual), arm.q)
-    inputs, names = [arm.q, arm.lengths, tracked.target], ["q", "lengths", "target"]
+    inputs = {"q": arm.q, "lengths": arm.lengths, "target": tracked.target}
     return {
-        "residual": _dense("residual", inputs, tracked.residual, names),
-        "jacobian": _dense("jacobian", inputs, jacobian, names),
-        "hessian": _dense("hessian", [*inputs, multipliers], hessian, [*names, "multipliers"]),
+        "residual": dense_function("residual", inputs, tracked.residual),
+        "jacobian": dense_function("jacobian", inputs, ca.vec(jacobian)),
+        "hessian": dense_function("hessian", inputs | {"multipliers": multipliers}, ca.vec(hessian)),
     }
-
-
-def _dense(name: str, inputs: list[ca.SX], value: ca.SX, names: list[str]) -> ca.Function:
-    return ca.Function(name, inputs, [ca.cse(ca.vec(ca.densify(value)))], names, ["out"])
 
 
 @functools.lru_cache(maxsize=64)

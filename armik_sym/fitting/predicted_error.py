@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from armik_sym.fitting.landmarks import Landmarks
 from armik_sym.fitting.recorded_angles import angles_on_branches
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.equivalent_angles import without_turns
 from armik_sym.swivel.spherical_arm import SphericalArm
 
 Array = NDArray[np.float64]
@@ -115,14 +115,14 @@ def predicted_error(
     def both(at: Landmarks) -> tuple[Array, Array]:
         followed = angles_on_branches(chain.spherical, *chain.target(at), branch)
         rigid = angles_on_branches(chain.spherical, *chain.rigid_target(at), branch)
-        return followed, _turned_back(followed - rigid)
+        return followed, without_turns(followed - rigid)
 
     q, apart = both(marks)
     of_q, of_apart = np.zeros_like(q), np.zeros_like(q)
     for moved in _perturbed(marks, noise, turned_noise):
         q_moved, apart_moved = both(moved)
-        of_q += _turned_back(q_moved - q) ** 2
-        of_apart += _turned_back(apart_moved - apart) ** 2
+        of_q += without_turns(q_moved - q) ** 2
+        of_apart += without_turns(apart_moved - apart) ** 2
     misfit2 = np.maximum(np.mean(apart**2, axis=0) - np.mean(of_apart, axis=0), 0.0)
     return PredictedError(np.sqrt(of_q), np.sqrt(misfit2), np.sqrt(np.mean(of_q, axis=0) + misfit2))
 
@@ -140,10 +140,6 @@ def _perturbed(marks: Landmarks, noise: Mapping[str, float], turned_noise: float
             turn = Rotation.from_rotvec(turned_noise * axis).as_matrix()
             moved.append(replace(marks, turned=turn @ marks.turned))
     return moved
-
-
-def _turned_back(angles: Array) -> Array:
-    return np.asarray(angles - TURN * np.rint(angles / TURN))
 
 
 def _unit(vectors: Array) -> Array:

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.swivel.closed_form import SwivelCurve, pose_curve
-from armik_sym.swivel.equivalent_angles import TURN, margin
+from armik_sym.swivel.constants import TURN
+from armik_sym.swivel.equivalent_angles import margin, without_turns
 from armik_sym.swivel.spherical_arm import SphericalArm
 
 Array = NDArray[np.float64]
@@ -119,8 +120,7 @@ def _least_way(spherical: SphericalArm, every: Array) -> Indices:
     price = np.sum(outside**2, axis=2)
     best, came_from = price[0], np.zeros(every.shape[:2], dtype=np.int64)
     for i in range(1, len(every)):
-        step = every[i][None] - every[i - 1][:, None]
-        step -= TURN * np.rint(step / TURN)
+        step = without_turns(every[i][None] - every[i - 1][:, None])
         way = best[:, None] + _STEP_WEIGHT * np.sum(step**2, axis=2)
         came_from[i] = np.argmin(way, axis=0)
         best = way[came_from[i], np.arange(len(best))] + price[i]

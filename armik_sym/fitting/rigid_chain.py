@@ -58,7 +58,7 @@ def best_rigid_chain(points: Array, base: Array, free_base: bool) -> RigidChain:
     sizes = np.linalg.norm(segments, axis=2)
     u = segments / np.maximum(sizes, 1e-12)[:, :, None]
     lengths, c = sizes.mean(axis=0), np.array(base, dtype=np.float64)
-    damping, cost = 1e-4, np.inf
+    damping = 1e-4
     residual = points - _ends(c, lengths, u)
     cost = float(np.sum(residual**2))
     for _ in range(_MOST_STEPS):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from armik_sym.errors import OptionError, RecordingError, ShapeError, UnknownNameError
 from armik_sym.motion.checks import check_finite, check_shape, float_copy
 from armik_sym.motion.marker_recording import MarkerRecording
-from armik_sym.motion.units import LENGTH_UNITS
+from armik_sym.motion.units import length_unit
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -222,9 +222,7 @@ def metres_of(unit: str | float) -> float:
         SI.
     """
     if isinstance(unit, str):
-        if unit not in LENGTH_UNITS:
-            raise UnknownNameError("unit of length", unit, LENGTH_UNITS)
-        return float(f"1e{LENGTH_UNITS[unit].shift}")
+        return float(f"1e{length_unit(unit).shift}")
     if not (math.isfinite(unit) and unit > 0):
         raise OptionError(f"unit is {unit!r} m, expected a positive number of metres")
     return float(unit)

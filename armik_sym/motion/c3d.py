@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.errors import MotionFileError, OptionError, RecordingError, UnitError, UnknownNameError
+from armik_sym.errors import MotionFileError, OptionError, UnitError
 from armik_sym.motion.c3d_header import C3DHeader, read_c3d_header
 from armik_sym.motion.c3d_points import read_points
 from armik_sym.motion.marker_recording import MarkerRecording
 from armik_sym.motion.nexus_csv import frame_numbers
 from armik_sym.motion.promised_rows import warn
-from armik_sym.motion.table_checks import check_table_names
-from armik_sym.motion.units import LENGTH_UNITS
+from armik_sym.motion.table_checks import check_table_names, errors_of_file
+from armik_sym.motion.units import LENGTH_UNITS, length_unit
 
 Array = NDArray[np.float64]
 
@@ -52,10 +52,8 @@ def read_c3d(path: str | os.PathLike[str]) -> MarkerRecording:
     position = read_points(file, header) / factor
     rate = float(str(np.float32(header.rate)))
     time = np.arange(header.first_frame - 1, header.first_frame - 1 + header.frames) / rate
-    try:
+    with errors_of_file(file):
         return MarkerRecording(np.asarray(time, dtype=np.float64), names, position, odd, file.name, rate)
-    except RecordingError as error:
-        raise MotionFileError(f"{file}: {error}") from None
 
 
 def write_c3d(path: str | os.PathLike[str], recording: MarkerRecording, unit: str = "mm") -> None:
@@ -77,9 +75,7 @@ def write_c3d(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
     Source:
         The C3D file format user guide, Motion Lab Systems (2021).
     """
-    if unit not in LENGTH_UNITS:
-        raise UnknownNameError("unit of length", unit, LENGTH_UNITS)
-    file = Path(path)
+    file, exponent = Path(path), length_unit(unit).shift
     check_table_names(file, recording.names, forbidden="\0")
     long = [name for name in recording.names if len(name.encode()) > _LONGEST_NAME]
     if long or len(recording.names) > 255:
@@ -102,9 +98,8 @@ def write_c3d(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
         kept = content["parameters"]["TRIAL"][f"ACTUAL_{word}_FIELD"]
         kept["type"], kept["value"] = _WORDS, np.array(signed)
     missing = np.isnan(recording.position[..., 0])
-    shift = 10.0 ** -LENGTH_UNITS[unit].shift
     values = np.ones((4, len(recording.names), recording.n))
-    values[:3] = np.moveaxis(recording.position * shift, (0, 1, 2), (2, 1, 0))
+    values[:3] = np.moveaxis(recording.position * 10.0**-exponent, (0, 1, 2), (2, 1, 0))
     content["data"]["points"] = values
     content["data"]["meta_points"]["residuals"] = np.where(missing.T, -1.0, 0.0)[None]
     content["data"]["meta_points"]["camera_masks"] = np.zeros((7, *missing.T.shape), dtype=bool)

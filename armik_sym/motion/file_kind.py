@@ -8,7 +8,7 @@ from typing import Literal
 
 from armik_sym.errors import MotionFileError
 from armik_sym.motion.marker_csv import is_marker_header
-from armik_sym.motion.nexus_csv import SECTIONS
+from armik_sym.motion.nexus_csv import SECTIONS, first_cell
 from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.table_header import header_columns
 
@@ -53,7 +53,7 @@ def file_kind(path: str | os.PathLike[str]) -> Kind:
             line = lines.next_content()
         if line is None:
             raise MotionFileError(f"{file}: no header row such as 'time [s],x [mm],…'")
-        if line.split(",")[0].strip().strip('"') in SECTIONS:
+        if first_cell(line) in SECTIONS:
             return "markers"
         names = list(header_columns(file, lines.number, line))
     if is_marker_header(names):

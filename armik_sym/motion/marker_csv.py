@@ -9,15 +9,15 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from armik_sym.errors import MotionFileError, RecordingError, UnitError, UnknownNameError
+from armik_sym.errors import MotionFileError, UnitError
 from armik_sym.motion.marker_recording import MarkerRecording
 from armik_sym.motion.number_rows import read_rows
 from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.promised_rows import joined
-from armik_sym.motion.table_checks import agreed_rate, check_table_names, check_times
+from armik_sym.motion.table_checks import agreed_rate, check_table_names, check_times, errors_of_file
 from armik_sym.motion.table_header import Column, header_columns
 from armik_sym.motion.text_file import write_lines
-from armik_sym.motion.units import LENGTH_UNITS, TIME_UNITS, Unit, from_si, is_number
+from armik_sym.motion.units import LENGTH_UNITS, TIME_UNITS, Unit, from_si, is_number, length_unit
 
 _AXES = ("x", "y", "z")
 _RATE, _NOTE = "rate:", "note:"
@@ -64,10 +64,8 @@ def read_marker_csv(path: str | os.PathLike[str]) -> MarkerRecording:
         raise MotionFileError(f"{file}: the rate is {said[_RATE]!r}, expected a positive number [Hz]")
     rate, odd = agreed_rate(file, float(said[_RATE]) if said[_RATE] else None, time)
     position = rows.values[:, 1:].reshape(len(time), len(names), 3)
-    try:
+    with errors_of_file(file):
         return MarkerRecording(time, names, position, joined(said[_NOTE], odd), file.name, rate)
-    except RecordingError as error:
-        raise MotionFileError(f"{file}: {error}") from None
 
 
 def write_marker_csv(path: str | os.PathLike[str], recording: MarkerRecording, unit: str = "mm") -> None:
@@ -87,9 +85,7 @@ def write_marker_csv(path: str | os.PathLike[str], recording: MarkerRecording, u
     Source:
         None (file format of this package, see `docs/files.md`).
     """
-    if unit not in LENGTH_UNITS:
-        raise UnknownNameError("unit of length", unit, LENGTH_UNITS)
-    file, factor = Path(path), LENGTH_UNITS[unit]
+    file, factor = Path(path), length_unit(unit)
     check_table_names(file, recording.names, forbidden="[]")
     rate = [f"# rate: {float(recording.declared_rate)!r}"] if recording.declared_rate is not None else []
     note = [f"# note: {' '.join(recording.note.split())}"] if recording.note.strip() else []

@@ -12,10 +12,10 @@ from armik_sym.errors import HandPathError, RecordingError, ShapeError, UnknownN
 from armik_sym.motion.checks import check_finite, check_increasing, check_shape, float_copy
 from armik_sym.motion.low_pass import check_even, low_pass
 from armik_sym.motion.marker_gaps import Filling, MarkerGaps, check_fill, fill_gaps, gaps_of
+from armik_sym.motion.promised_rows import joined
+from armik_sym.motion.table_checks import contradicting_rate
 
 Array = NDArray[np.float64]
-
-_RATE_TOLERANCE = 0.01
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -186,7 +186,7 @@ class MarkerRecording:
             f"gaps up to {longest:g} s filled by {method} interpolation: {done.gaps} gaps, {done.samples} "
             f"samples, the longest {done.longest:.4g} s; {done.left} gaps left open"
         )
-        return replace(self, position=position, note=_joined(self.note, said))
+        return replace(self, position=position, note=joined(self.note, said))
 
     def filtered(self, cutoff_hz: float) -> MarkerRecording:
         """Low-pass filter without phase shift, between gaps; the note states it.
@@ -209,7 +209,7 @@ class MarkerRecording:
             [low_pass(self.position[:, i], self.rate, cutoff_hz) for i in range(len(self.names))], axis=1
         )
         said = f"low-pass filtered at {cutoff_hz:g} Hz (Butterworth, second order, forwards and backwards)"
-        return replace(self, position=position, note=_joined(self.note, said))
+        return replace(self, position=position, note=joined(self.note, said))
 
     def __len__(self) -> int:
         return self.n
@@ -261,14 +261,9 @@ def _check_rate(time: Array, rate: float | None) -> None:
         return
     if not (np.isfinite(rate) and rate > 0):
         raise RecordingError(f"declared_rate is {rate!r} Hz, expected a positive number")
-    if len(time) > 1:
-        measured = (len(time) - 1) / float(time[-1] - time[0])
-        if abs(measured - rate) > _RATE_TOLERANCE * rate:
-            raise RecordingError(
-                f"declared_rate is {rate:g} Hz, but the times have {measured:g} samples per second: one of "
-                "the two is wrong"
-            )
-
-
-def _joined(note: str, said: str) -> str:
-    return f"{note}; {said}" if note else said
+    measured = contradicting_rate(rate, time)
+    if measured is not None:
+        raise RecordingError(
+            f"declared_rate is {rate:g} Hz, but the times have {measured:g} samples per second: one of the "
+            "two is wrong"
+        )

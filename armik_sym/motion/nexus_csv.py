@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.errors import MotionFileError, RecordingError, UnitError, UnknownNameError
+from armik_sym.errors import MotionFileError, UnitError
 from armik_sym.motion.marker_recording import MarkerRecording
 from armik_sym.motion.number_rows import read_rows, split, without_empty_end
 from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.promised_rows import joined
-from armik_sym.motion.table_checks import agreed_rate, check_table_names
+from armik_sym.motion.table_checks import agreed_rate, check_table_names, errors_of_file
 from armik_sym.motion.text_file import write_lines
-from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_number
+from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_number, length_unit
 
 Array = NDArray[np.float64]
 
@@ -62,10 +62,8 @@ def read_nexus_csv(path: str | os.PathLike[str]) -> MarkerRecording:
     position = rows.values[:, 2:].reshape(len(time), len(names), 3)
     declared, odd = agreed_rate(file, rate, time)
     note = joined(f"sections not read: {', '.join(others)}" if others else "", odd)
-    try:
+    with errors_of_file(file):
         return MarkerRecording(time, tuple(names), position, note, file.name, declared)
-    except RecordingError as error:
-        raise MotionFileError(f"{file}: {error}") from None
 
 
 def write_nexus_csv(path: str | os.PathLike[str], recording: MarkerRecording, unit: str = "mm") -> None:
@@ -86,9 +84,7 @@ def write_nexus_csv(path: str | os.PathLike[str], recording: MarkerRecording, un
     Source:
         Vicon Nexus user guide, "Export ASCII".
     """
-    if unit not in LENGTH_UNITS:
-        raise UnknownNameError("unit of length", unit, LENGTH_UNITS)
-    file, factor = Path(path), LENGTH_UNITS[unit]
+    file, factor = Path(path), length_unit(unit)
     check_table_names(file, recording.names, forbidden=',"')
     frames, rate = frame_numbers(file, recording)
     lines = [
@@ -102,6 +98,21 @@ def write_nexus_csv(path: str | os.PathLike[str], recording: MarkerRecording, un
         cells = ("" if math.isnan(value) else from_si(value, factor) for value in row)
         lines.append(",".join((str(frame), "0", *cells)))
     write_lines(file, [*lines, ""])
+
+
+def first_cell(line: str) -> str:
+    """The first cell of a line, without quotes: the name of a section where one starts.
+
+    Args:
+        line: The line.
+
+    Returns:
+        The cell.
+
+    Source:
+        Vicon Nexus user guide, "Export ASCII".
+    """
+    return line.split(",")[0].strip().strip('"')
 
 
 def frame_numbers(file: Path, recording: MarkerRecording) -> tuple[list[int], float]:
@@ -140,7 +151,7 @@ def _to_section(lines: NumberedLines) -> list[str]:
     """Go to the trajectories, and name the sections passed over."""
     passed: list[str] = []
     while (line := lines.next_line()) is not None:
-        first = line.split(",")[0].strip().strip('"')
+        first = first_cell(line)
         if first == TITLE:
             return passed
         if first in SECTIONS:

@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import TextIO
 
 from armik_sym.errors import MotionFileError
+from armik_sym.motion.text_file import unreadable
 
 LONGEST_LINE = 1_000_000
 MOST_BLANK_LINES = 10_000
@@ -127,12 +128,7 @@ class NumberedLines:
 def _open(path: Path) -> TextIO:
     try:
         raw = path.open("rb")
-    except FileNotFoundError:
-        raise MotionFileError(f"{path}: no such file") from None
     except (OSError, ValueError) as error:
-        if path.is_dir():
-            raise MotionFileError(f"{path}: is a folder, expected a file") from None
-        said = getattr(error, "strerror", None) or error
-        raise MotionFileError(f"{path}: cannot be read: {said}") from None
+        raise unreadable(path, error) from None
     # Bytes that are not UTF-8 become lone surrogates, which tell where they were.
     return io.TextIOWrapper(raw, encoding="utf-8-sig", errors="surrogateescape", newline=None)

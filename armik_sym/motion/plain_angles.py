@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from armik_sym.errors import MotionFileError, OptionError, RecordingError, UnknownNameError
+from armik_sym.errors import MotionFileError, OptionError, UnknownNameError
 from armik_sym.motion.number_rows import read_rows, without_empty_end
 from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.storage_table import StorageTable
-from armik_sym.motion.table_checks import check_table_names
+from armik_sym.motion.table_checks import check_table_names, errors_of_file
 from armik_sym.motion.table_header import row_cells
 from armik_sym.motion.units import ANGLE_UNITS, Unit, is_number
 
@@ -57,24 +56,5 @@ def read_plain_angles(path: str | os.PathLike[str], rate: float, unit: str) -> S
         raise MotionFileError(f"{file}: the names of the columns are followed by no rows")
     time = np.arange(len(rows.values)) / rate
     said = f"rate {rate:g} Hz and unit {unit} as given by the caller"
-    try:
+    with errors_of_file(file):
         return StorageTable(time, tuple(names), rows.values, unit == "deg", "", said, file.name)
-    except RecordingError as error:
-        raise MotionFileError(f"{file}: {error}") from None
-
-
-def chosen(joints: Sequence[str] | Mapping[str, str] | None) -> dict[str, str] | None:
-    """Column by name of the joint, from any way to choose columns.
-
-    Args:
-        joints: Names, or column by name of the joint, or None for all.
-
-    Returns:
-        Column by name of the joint, or None for all.
-
-    Source:
-        None (bookkeeping).
-    """
-    if joints is None:
-        return None
-    return dict(joints) if isinstance(joints, Mapping) else {name: name for name in joints}

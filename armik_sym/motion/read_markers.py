@@ -11,7 +11,7 @@ from armik_sym.motion.bvh import read_bvh
 from armik_sym.motion.c3d import read_c3d, write_c3d
 from armik_sym.motion.marker_csv import read_marker_csv, write_marker_csv
 from armik_sym.motion.marker_recording import MarkerRecording
-from armik_sym.motion.nexus_csv import SECTIONS, read_nexus_csv, write_nexus_csv
+from armik_sym.motion.nexus_csv import SECTIONS, first_cell, read_nexus_csv, write_nexus_csv
 from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.trc import read_trc, write_trc
 
@@ -112,4 +112,4 @@ def is_nexus_csv(path: Path) -> bool:
     """
     with NumberedLines(path) as lines:
         line = lines.next_line(any_encoding=True) or ""
-    return line.split(",")[0].strip().strip('"') in SECTIONS
+    return first_cell(line) in SECTIONS

@@ -11,9 +11,9 @@ import numpy as np
 from armik_sym.errors import MotionFileError, OptionError, UnknownNameError
 from armik_sym.motion.joint_csv import read_joint_angles, write_joint_angles
 from armik_sym.motion.joint_motion import JointMotion
-from armik_sym.motion.plain_angles import chosen, read_plain_angles
+from armik_sym.motion.plain_angles import read_plain_angles
 from armik_sym.motion.storage import read_storage, write_storage
-from armik_sym.motion.storage_table import angle_table
+from armik_sym.motion.storage_table import angle_table, column_of_joint
 
 MOTION_FILES = (".mot", ".sto", ".csv")
 
@@ -46,7 +46,7 @@ def read_motion(
     Source:
         None (see the readers of each form, and `docs/files.md`).
     """
-    file, wanted = Path(path), chosen(joints)
+    file = Path(path)
     ending = file.suffix.lower()
     if ending not in MOTION_FILES:
         raise MotionFileError(
@@ -58,12 +58,13 @@ def read_motion(
     if ending != ".csv":
         if rate is not None:
             raise OptionError(f"rate and unit are for .csv files without them, {file.name} has its own")
-        return read_storage(file).joint_motion(wanted)
+        return read_storage(file).joint_motion(joints)
     if rate is not None and unit is not None:
-        return read_plain_angles(file, rate, unit).joint_motion(wanted)
+        return read_plain_angles(file, rate, unit).joint_motion(joints)
     motion = read_joint_angles(file)
-    if wanted is None:
+    if joints is None:
         return motion
+    wanted = column_of_joint(joints)
     for column in wanted.values():
         if column not in motion.joint_names:
             raise UnknownNameError("column", column, motion.joint_names)

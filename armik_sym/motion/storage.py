@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from armik_sym.errors import MotionFileError, RecordingError, UnitError
+from armik_sym.errors import MotionFileError, UnitError
 from armik_sym.motion.number_rows import read_rows, split, without_empty_end
 from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.promised_rows import compare_rows, count_of, joined, warn
 from armik_sym.motion.storage_table import StorageTable
-from armik_sym.motion.table_checks import check_table_names, check_times
+from armik_sym.motion.table_checks import check_table_names, check_times, errors_of_file
 from armik_sym.motion.text_file import write_lines
 from armik_sym.motion.units import Unit
 
@@ -61,10 +61,8 @@ def read_storage(path: str | os.PathLike[str]) -> StorageTable:
     if wide != len(names):
         odd = joined(odd, warn(file, f"the header promises {wide} columns (nColumns) and names {len(names)}"))
     degrees = _in_degrees(file, header)
-    try:
+    with errors_of_file(file):
         return StorageTable(time, tuple(names[1:]), rows.values[:, 1:], degrees, title, odd, file.name)
-    except RecordingError as error:
-        raise MotionFileError(f"{file}: {error}") from None
 
 
 def write_storage(path: str | os.PathLike[str], table: StorageTable, comment: str = "") -> None:

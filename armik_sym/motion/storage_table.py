@@ -126,7 +126,7 @@ class StorageTable:
             if left_out:
                 said = f"{self._where}columns left out, by their names translations: {', '.join(left_out)}"
                 warnings.warn(f"{said}; choose columns with joints=…", MotionFileWarning, stacklevel=2)
-        columns = dict(joints) if isinstance(joints, Mapping) else {name: name for name in joints}
+        columns = column_of_joint(joints)
         loads = [name for name in columns.values() if _LOAD.search(name)]
         if loads:
             raise UnitError(f"{self._where}column {loads[0]!r} is a load, expected joint angles")
@@ -157,6 +157,21 @@ class StorageTable:
             f"StorageTable({self.title!r}, {len(self)} samples, {len(self.names)} columns, rotations in "
             f"{angles}{', ' + self.source if self.source else ''})"
         )
+
+
+def column_of_joint(joints: Sequence[str] | Mapping[str, str]) -> dict[str, str]:
+    """Column by name of the joint, from any way to choose columns.
+
+    Args:
+        joints: Names, or column by name of the joint.
+
+    Returns:
+        Column by name of the joint.
+
+    Source:
+        None (bookkeeping).
+    """
+    return dict(joints) if isinstance(joints, Mapping) else {name: name for name in joints}
 
 
 def angle_table(

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.errors import HandPathError, MotionFileError
+from armik_sym.errors import HandPathError, MotionFileError, RecordingError
 from armik_sym.motion.checks import check_increasing
 from armik_sym.motion.promised_rows import warn
 
 Array = NDArray[np.float64]
 
-RATE_TOLERANCE = 0.01
+_RATE_TOLERANCE = 0.01
 
 
 def check_table_names(
@@ -47,6 +48,25 @@ def check_table_names(
         if forbidden and (bad or name != name.strip()):
             said = repr(bad[0]) if bad else "blanks at its ends"
             raise MotionFileError(f"{where} {what} {name!r} cannot be written in this form: it has {said}")
+
+
+@contextmanager
+def errors_of_file(path: Path) -> Iterator[None]:
+    """Turn the errors of what a file holds into errors of the file, which name it.
+
+    Args:
+        path: The file.
+
+    Raises:
+        MotionFileError: In place of a `RecordingError`.
+
+    Source:
+        None (reporting).
+    """
+    try:
+        yield
+    except RecordingError as error:
+        raise MotionFileError(f"{path}: {error}") from None
 
 
 def check_times(path: Path, time: Array, lines: NDArray[np.int64]) -> None:
@@ -83,10 +103,27 @@ def agreed_rate(path: Path, declared: float | None, time: Array) -> tuple[float 
     Source:
         None (this package).
     """
-    if declared is None or len(time) < 2:
-        return declared, ""
-    measured = (len(time) - 1) / float(time[-1] - time[0])
-    if abs(measured - declared) <= RATE_TOLERANCE * declared:
+    measured = None if declared is None else contradicting_rate(declared, time)
+    if measured is None:
         return declared, ""
     said = f"the header declares {declared:g} Hz, the times have {measured:.6g} samples per second"
     return None, warn(path, f"{said}; the times are used")
+
+
+def contradicting_rate(declared: float, time: Array) -> float | None:
+    """The rate the times have, if it contradicts a declared one by more than 1 %: |rate·Δt - 1| > 0.01.
+
+    Args:
+        declared: The declared rate, in [Hz].
+        time: Times, shape (n,), in [s].
+
+    Returns:
+        Samples per second by the times, in [Hz]; None if they agree, or a single sample tells nothing.
+
+    Source:
+        None (this package).
+    """
+    if len(time) < 2:
+        return None
+    measured = (len(time) - 1) / float(time[-1] - time[0])
+    return measured if abs(measured - declared) > _RATE_TOLERANCE * declared else None

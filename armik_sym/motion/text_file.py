@@ -68,6 +68,26 @@ def write_lines(path: Path, lines: list[str]) -> None:
         raise MotionFileError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
+def unreadable(path: Path, error: OSError | ValueError) -> MotionFileError:
+    """Why a file cannot be read, in words.
+
+    Args:
+        path: The file.
+        error: What went wrong when it was opened or read.
+
+    Returns:
+        The error to raise.
+
+    Source:
+        None (reporting).
+    """
+    if isinstance(error, FileNotFoundError):
+        return MotionFileError(f"{path}: no such file")
+    if path.is_dir():
+        return MotionFileError(f"{path}: is a folder, expected a file")
+    return MotionFileError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}")
+
+
 def _read_bytes(path: Path) -> bytes:
     """All bytes, or only the first of a file that cannot be text, so that garbage is refused early."""
     try:
@@ -82,16 +102,10 @@ def _read_bytes(path: Path) -> bytes:
             raw = bytearray(head)
             while len(raw) <= _LARGEST and (more := file.read(16 * _HEAD)):
                 raw += more
-    except FileNotFoundError:
-        raise MotionFileError(f"{path}: no such file") from None
     except MotionFileError:
         raise
     except (OSError, ValueError) as error:
-        if path.is_dir():
-            raise MotionFileError(f"{path}: is a folder, expected a file") from None
-        raise MotionFileError(
-            f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}"
-        ) from None
+        raise unreadable(path, error) from None
     if len(raw) > _LARGEST:
         raise MotionFileError(f"{path}: has more than {_LARGEST // 2**20} MiB, the most that is read at once")
     return bytes(raw)

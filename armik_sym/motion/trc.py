@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.errors import MotionFileError, RecordingError, UnitError, UnknownNameError
+from armik_sym.errors import MotionFileError, UnitError
 from armik_sym.motion.marker_recording import MarkerRecording
 from armik_sym.motion.number_rows import NumberRows, read_rows, split, without_empty_end
 from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.promised_rows import compare_rows, count_of, joined, warn
-from armik_sym.motion.table_checks import agreed_rate, check_table_names, check_times
+from armik_sym.motion.table_checks import agreed_rate, check_table_names, check_times, errors_of_file
 from armik_sym.motion.text_file import write_lines
-from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_number
+from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_number, length_unit
 
 Array = NDArray[np.float64]
 
@@ -82,10 +82,8 @@ def _recording(
             )
     rate, strange = agreed_rate(file, _rate(file, at, fields), time)
     position = rows.values[:, 2:].reshape(len(time), len(names), 3)
-    try:
+    with errors_of_file(file):
         return MarkerRecording(time, tuple(names), position, joined(odd, strange), file.name, rate)
-    except RecordingError as error:
-        raise MotionFileError(f"{file}: {error}") from None
 
 
 def write_trc(path: str | os.PathLike[str], recording: MarkerRecording, unit: str = "mm") -> None:
@@ -106,9 +104,7 @@ def write_trc(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
     Source:
         OpenSim documentation, "Marker (.trc) files".
     """
-    if unit not in LENGTH_UNITS:
-        raise UnknownNameError("unit of length", unit, LENGTH_UNITS)
-    file, factor = Path(path), LENGTH_UNITS[unit]
+    file, factor = Path(path), length_unit(unit)
     check_table_names(file, recording.names, forbidden="\t")
     rate, n = (
         repr(float(recording.rate)) if recording.n > 1 or recording.declared_rate else "1.0",

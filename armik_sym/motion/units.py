@@ -12,6 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Context, Decimal
 
+from armik_sym.errors import UnknownNameError
+
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\Z", re.ASCII)
 _CONTEXT = Context(prec=800)
 _LONGEST_PLAIN = 20
@@ -37,6 +39,26 @@ TIME_UNITS: Mapping[str, Unit] = {"s": Unit(), "ms": Unit(-3)}
 LENGTH_UNITS: Mapping[str, Unit] = {"m": Unit(), "cm": Unit(-2), "mm": Unit(-3)}
 ANGLE_UNITS: Mapping[str, Unit] = {"rad": Unit(), "deg": Unit(factor=math.pi / 180.0)}
 NO_UNITS: Mapping[str, Unit] = {"-": Unit(), "1": Unit()}
+
+
+def length_unit(name: str) -> Unit:
+    """A unit of length by its name.
+
+    Args:
+        name: "m", "cm" or "mm".
+
+    Returns:
+        The unit.
+
+    Raises:
+        UnknownNameError: If the unit is another one.
+
+    Source:
+        SI.
+    """
+    if name not in LENGTH_UNITS:
+        raise UnknownNameError("unit of length", name, LENGTH_UNITS)
+    return LENGTH_UNITS[name]
 
 
 def is_number(text: str) -> bool:

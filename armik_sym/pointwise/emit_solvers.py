@@ -16,9 +16,10 @@ from armik_sym.compiled.c_source import c_function
 from armik_sym.compiled.emit_functions import EmittedLibrary
 from armik_sym.compiled.emit_header import common_values
 from armik_sym.compiled.emit_text import fill_template
+from armik_sym.compiled.hand_written import loop_text
 from armik_sym.pointwise.differential_evolution.options import ProIsadeOptions
 from armik_sym.pointwise.emit_solver_interface import declarations, default_values
-from armik_sym.pointwise.library import LOOPS, loop_text
+from armik_sym.pointwise.library import LOOPS
 
 # Structures that the header has to show, by the file that defines them.
 _DAMPED = {"bounded_step.h": ("step_workspace",), "damped_pose.h": ("damped_point", "damped_workspace")}

@@ -21,11 +21,6 @@ from armik_sym.symbolic.alfaiz_closed_form import closed_form_fits, search_funct
 from armik_sym.symbolic.dense_function import dense_function
 from armik_sym.symbolic.row_order import row_by_row
 
-__all__ = [
-    "ALFAIZ_LOOPS", "LOOPS", "PointwiseLibrary", "library_source", "loop_text", "pointwise_functions",
-    "pointwise_library", "pointwise_source",
-]  # fmt: skip
-
 # The hand-written C, in the order in which one file needs the other.
 LOOPS = (
     "random_stream.h", "real_math.h",

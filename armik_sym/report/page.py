@@ -21,7 +21,7 @@ _RESOLUTION_DPI = 150
 # Text in vector files stays text; the same figure gives the same file.
 _SAVING: dict[Any, Any] = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "armik_sym"}
 # Margins in inches: of the page, of a line of the head, and around panels for their labels.
-_EDGE, _LINE = 0.15, 0.22
+EDGE, _LINE = 0.15, 0.22
 _LEFT, _ABOVE, _BELOW, _BESIDE, _BETWEEN = 0.7, 0.3, 0.5, 0.75, 0.75
 
 
@@ -44,25 +44,46 @@ def new_figure(title: str, lines: list[str], rows: int, columns: int, panel: Siz
     Source:
         None (matplotlib, object-oriented interface).
     """
-    top = _EDGE + _LINE * (1 + len(lines)) + _ABOVE
-    width = _LEFT + columns * panel[0] + (columns - 1) * _BESIDE + _EDGE
+    top = EDGE + _LINE * (1 + len(lines)) + _ABOVE
+    width = _LEFT + columns * panel[0] + (columns - 1) * _BESIDE + EDGE
     height = top + rows * panel[1] + (rows - 1) * _BETWEEN + _BELOW
-    figure = Figure(figsize=(width, height), facecolor="white")
+    figure = headed_page(title, lines, (width, height), _LINE)
     grid = figure.add_gridspec(
         rows,
         columns,
         left=_LEFT / width,
-        right=1 - _EDGE / width,
+        right=1 - EDGE / width,
         top=1 - top / height,
         bottom=_BELOW / height,
         wspace=_BESIDE / panel[0],
         hspace=_BETWEEN / panel[1],
     )
-    x, y = _EDGE / width, 1 - _EDGE / height
+    return figure, grid
+
+
+def headed_page(title: str, lines: list[str], size: Size, line_height: float) -> Figure:
+    """A white figure with a head and nothing below it.
+
+    Args:
+        title: First line of the head.
+        lines: Lines below it.
+        size: Width and height of the page, in [inch].
+        line_height: From line to line, in [inch].
+
+    Returns:
+        A figure that no pyplot window knows of.
+
+    Source:
+        None (matplotlib, object-oriented interface).
+    """
+    width, height = size
+    figure = Figure(figsize=size, facecolor="white")
+    x, y = EDGE / width, 1 - EDGE / height
     figure.suptitle(title, x=x, y=y, ha="left", va="top", fontsize=TITLE_SIZE, color=INK)
     for i, line in enumerate(lines, 1):
-        figure.text(x, y - i * _LINE / height, line, ha="left", va="top", fontsize=PANEL_SIZE, color=INK)
-    return figure, grid
+        below = i * line_height / height
+        figure.text(x, y - below, line, ha="left", va="top", fontsize=PANEL_SIZE, color=INK)
+    return figure
 
 
 def _packing(file: Path) -> dict[str, Any]:

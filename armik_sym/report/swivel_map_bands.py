@@ -20,6 +20,7 @@ _BINS = 720
 _MOST_COUNTED = 4000
 _WHOLE = 360.0
 _BIN = _WHOLE / _BINS
+_MIDDLES = -180.0 + (np.arange(_BINS) + 0.5) * _BIN
 # Room above and below what is drawn, as a share of its height and at least, in [deg].
 _ROOM, _LEAST_ROOM = 0.1, 6.0
 
@@ -171,15 +172,13 @@ def _usable(map_: SwivelMap, branches: Sequence[int]) -> Array:
     rows = np.flatnonzero(np.isin(intervals.branch, branches))
     rows = rows[:: max(1, len(rows) // _MOST_COUNTED)]
     start, end = np.rad2deg(intervals.start[rows]), np.rad2deg(intervals.end[rows])
-    middles = -180.0 + (np.arange(_BINS) + 0.5) * _BIN
     return np.array(
-        [np.count_nonzero(np.mod(at - start, _WHOLE) <= end - start) for at in middles], dtype=float
+        [np.count_nonzero(np.mod(at - start, _WHOLE) <= end - start) for at in _MIDDLES], dtype=float
     )
 
 
 def _bins_between(low: float, high: float) -> NDArray[np.bool_]:
-    middles = -180.0 + (np.arange(_BINS) + 0.5) * _BIN
-    return np.asarray(np.mod(middles - low, _WHOLE) <= high - low)
+    return np.asarray(np.mod(_MIDDLES - low, _WHOLE) <= high - low)
 
 
 def _centred(low: float, high: float) -> tuple[float, float]:

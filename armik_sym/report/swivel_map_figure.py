@@ -11,7 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from armik_sym.report.style import INK, LIMIT, MEASURED, PANEL_SIZE, SOLVED, TEXT_SIZE, TITLE_SIZE
+from armik_sym.report.page import EDGE, headed_page
+from armik_sym.report.style import INK, LIMIT, MEASURED, SOLVED, TEXT_SIZE
 from armik_sym.report.swivel_map_bands import bands_of, into_window, window_of
 from armik_sym.report.swivel_map_panel import GUIDE_LINE, TINTS, Line, draw_panel
 from armik_sym.swivel.map_class import SwivelMap
@@ -21,7 +22,7 @@ Indices = NDArray[np.int64]
 # All in inches: a panel when alone and when there are several, and what is around them.
 _WIDTH, _ALONE, _ONE_OF_SEVERAL = 7.6, 3.7, 2.6
 _LEFT, _RIGHT, _ABOVE, _BETWEEN, _BELOW, _KEY = 0.72, 1.3, 0.3, 0.42, 0.5, 0.5
-_EDGE, _LINE = 0.15, 0.21
+_LINE = 0.21
 _MOST_PANELS = 3
 # Characters of a title that fit on a line.
 _ONE_LINE = 95
@@ -126,21 +127,16 @@ def _branches(map_: SwivelMap, lines: list[Line]) -> list[int]:
 
 def _page(title: str, head: list[str], panels: int, height: float) -> tuple[Figure, list[float]]:
     """A white page with its head, and the height of each panel's top above the foot, in [inch]."""
-    above = _EDGE + _LINE * (1 + len(head)) + _ABOVE
+    above = EDGE + _LINE * (1 + len(head)) + _ABOVE
     tall = above + panels * height + (panels - 1) * _BETWEEN + _BELOW + _KEY
-    wide = _LEFT + _WIDTH + _RIGHT
-    figure = Figure(figsize=(wide, tall), facecolor="white")
-    x, y = _EDGE / wide, 1 - _EDGE / tall
-    figure.suptitle(title, x=x, y=y, ha="left", va="top", fontsize=TITLE_SIZE, color=INK)
-    for i, line in enumerate(head, 1):
-        figure.text(x, y - i * _LINE / tall, line, ha="left", va="top", fontsize=PANEL_SIZE, color=INK)
+    figure = headed_page(title, head, (_LEFT + _WIDTH + _RIGHT, tall), _LINE)
     return figure, [tall - above - i * (height + _BETWEEN) for i in range(panels)]
 
 
 def _draw_key(figure: Figure, lines: list[Line]) -> None:
     """What lines and tints mean, below the panels."""
     wide, tall = figure.get_size_inches()
-    axes = figure.add_axes((_LEFT / wide, 0.06 / tall, (_WIDTH + _RIGHT - _EDGE) / wide, _KEY / tall))
+    axes = figure.add_axes((_LEFT / wide, 0.06 / tall, (_WIDTH + _RIGHT - EDGE) / wide, _KEY / tall))
     axes.set_axis_off()
     look: dict[str, Any] = {
         "frameon": False, "fontsize": TEXT_SIZE, "labelcolor": INK, "borderaxespad": 0, "handletextpad": 0.5,

@@ -298,15 +298,35 @@ def write_edges(axes: Axes, map_: SwivelMap, runs: list[EdgeRun], raster: Raster
         if place is None:
             continue
         named.add(limit)
-        axes.text(
-            place[0] / raster.size[0],
-            place[1] / raster.size[1],
-            place[2],
-            transform=axes.transAxes,
-            ha="center",
-            va="center",
-            fontsize=TEXT_SIZE,
-            color=INK,
-            zorder=7,
-            path_effects=[withStroke(linewidth=2.5, foreground="white")],
-        )
+        x, y, text = place
+        write(axes, (x / raster.size[0], y / raster.size[1]), text, halo=2.5, zorder=7)
+
+
+def write(
+    axes: Axes, at: tuple[float, float], text: str, *, halo: float, zorder: float, rotation: float = 0
+) -> None:
+    """Write around a point of a panel, readable on top of bands and lines.
+
+    Args:
+        axes: The panel.
+        at: The middle of the text, as shares of width and height of the panel.
+        text: The text.
+        halo: Width of the white outline, in [pt].
+        zorder: What it covers.
+        rotation: Angle of the text, in [deg].
+
+    Source:
+        None (drawing).
+    """
+    axes.text(
+        *at,
+        text,
+        transform=axes.transAxes,
+        rotation=rotation,
+        ha="center",
+        va="center",
+        fontsize=TEXT_SIZE,
+        color=INK,
+        zorder=zorder,
+        path_effects=[withStroke(linewidth=halo, foreground="white")],
+    )

@@ -26,6 +26,7 @@ from armik_sym.report.swivel_map_labels import (
     edge_runs,
     mark_changes,
     to_inches,
+    write,
     write_edges,
 )
 from armik_sym.swivel.branch_words import ONLY_BRANCH
@@ -284,16 +285,5 @@ def _write_in_gap(axes: Axes, text: str, span: tuple[float, float], raster: Rast
     x = 0.5 * sum(span)
     y = raster.emptiest(x, half)
     raster.add_text(x, y, half)
-    axes.text(
-        x / raster.size[0],
-        y / raster.size[1],
-        "\n".join(lines),
-        transform=axes.transAxes,
-        rotation=90 if upright else 0,
-        ha="center",
-        va="center",
-        fontsize=TEXT_SIZE,
-        color=INK,
-        zorder=8,
-        path_effects=[withStroke(linewidth=3, foreground="white")],
-    )
+    place = x / raster.size[0], y / raster.size[1]
+    write(axes, place, "\n".join(lines), halo=3, zorder=8, rotation=90 if upright else 0)

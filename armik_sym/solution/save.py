@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from armik_sym._version import __version__
-from armik_sym.arm.dh import JointType
 from armik_sym.arm.display_units import joint_units
 from armik_sym.errors import MotionFileError
 from armik_sym.motion.storage import write_storage
@@ -112,13 +111,13 @@ def _told_by_the_method(solution: Solution) -> dict[str, Any]:
 
 
 def _write_storage(solution: Solution, path: Path) -> None:
-    rotates = [link.joint is JointType.REVOLUTE for link in solution.arm.chain.moving_links]
-    table = angle_table(solution.time, solution.q, solution.arm.joint_names, rotates)
+    arm = solution.arm
+    table = angle_table(solution.time, solution.q, arm.joint_names, arm.rotates.tolist())
     verdict = "ok" if solution.ok else "not ok"
     write_storage(
         path,
         table,
-        f"Solved by armik_sym {__version__}, arm {solution.arm.name}, method {solution.method}: {verdict}\n"
+        f"Solved by armik_sym {__version__}, arm {arm.name}, method {solution.method}: {verdict}\n"
         "Rotations are in degrees, translations in metres, times in seconds.",
     )
 

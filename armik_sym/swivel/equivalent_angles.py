@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from armik_sym.swivel.constants import ROUNDING, TURN
 
-__all__ = ["ROUNDING", "TURN", "largest_difference", "margin", "nearest_in_range"]
-
 Array = NDArray[np.float64]
 
 
@@ -49,7 +47,7 @@ def margin(angle: Array, lower: Array, upper: Array) -> Array:
         None (this package).
     """
     away = angle - 0.5 * (lower + upper)
-    return np.asarray(0.5 * (upper - lower) - np.abs(away - TURN * np.rint(away / TURN)))
+    return np.asarray(0.5 * (upper - lower) - np.abs(without_turns(away)))
 
 
 def largest_difference(q: Array, other: Array, width: Array) -> Array:
@@ -71,3 +69,18 @@ def largest_difference(q: Array, other: Array, width: Array) -> Array:
     away = q - other
     turns = np.rint(away / TURN) * (width > TURN + ROUNDING)
     return np.asarray(np.abs(away - TURN * turns).max(axis=1))
+
+
+def without_turns(angle: Array) -> Array:
+    """Angles without whole turns: between -π and π.
+
+    Args:
+        angle: Angles of any shape, in [rad].
+
+    Returns:
+        The same shape, in [rad].
+
+    Source:
+        Definition.
+    """
+    return np.asarray(angle - TURN * np.rint(angle / TURN))

@@ -48,6 +48,20 @@ class FeasibleIntervals:
     end: Array
     empty: NDArray[np.bool_]
 
+    def branch_of(self, signs: Indices) -> Indices:
+        """Which branches have given signs.
+
+        Args:
+            signs: Elbow side, shoulder and wrist branch, ±1, shape (m, 3).
+
+        Returns:
+            Indices into `branches`, shape (m,).
+
+        Source:
+            None (bookkeeping).
+        """
+        return np.asarray((signs[:, None] == self.branches).all(axis=2).argmax(axis=1), dtype=np.int64)
+
     def of(self, sample: int, branch: int) -> Array:
         """The intervals of one sample and branch.
 

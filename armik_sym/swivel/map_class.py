@@ -19,7 +19,7 @@ from armik_sym.swivel.blocking import Blocking, blocking
 from armik_sym.swivel.branch_words import branch_names
 from armik_sym.swivel.branches import swivel_of_postures
 from armik_sym.swivel.clearance import Clearance, IntervalEnds, clearance, interval_ends
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.map_text import blocked_lines, summary
 from armik_sym.swivel.postures_at import postures_at
@@ -223,8 +223,7 @@ class SwivelMap:
         q = self._angles(motion)
         at = swivel_of_postures(self.spherical, q, self.reference, self.wrist is not None, self.backend)
         signs = np.column_stack([at.elbow, at.shoulder, at.wrist])
-        branch = (signs[:, None] == self.branches[None]).all(axis=2).argmax(axis=1)
-        return SwivelPath(np.unwrap(at.psi), branch.astype(np.int64))
+        return SwivelPath(np.unwrap(at.psi), self.intervals.branch_of(signs))
 
     def postures(self, psi: ArrayLike, branch: ArrayLike, wish: ArrayLike | None = None) -> Array:
         """The joint angles of a path on the map.

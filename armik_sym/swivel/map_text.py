@@ -139,14 +139,13 @@ def summary(map_: SwivelMap) -> str:
     n, empty = len(map_), map_.intervals.empty
     blocked = "every sample has a posture" if not len(map_.blocked) else f"{len(map_.blocked)} blocked"
     lines = [f"swivel map: arm {map_.arm.name}, {n} samples over {map_.path.duration:.3g} s, {blocked}"]
-    breaks = {item.branch: item for item in map_.breaks}
     for branch in (int(b) for b in np.flatnonzero(~empty.all(axis=0))):
         there = ~empty[:, branch]
         width = np.rad2deg(map_.width[there, branch])
         text = f"  branch {branch}  {map_.branch_names[branch]}: "
         text += f"{width.min():.3g}° to {width.max():.3g}° wide"
-        if branch in breaks:
-            sample = breaks[branch].sample
+        if not there.all():
+            sample = int(np.argmin(there))
             (why,) = reasons(map_, np.array([sample]), branch)
             text += f" at {there.sum()} samples; none at sample {sample} ({missing_words(*why)})"
         lines.append(text)

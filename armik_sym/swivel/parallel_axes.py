@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.swivel.constants import NEAR, TURN
+from armik_sym.swivel.constants import NEAR
+from armik_sym.swivel.equivalent_angles import without_turns
 
 Array = NDArray[np.float64]
 
@@ -37,14 +38,12 @@ def first_at_pole(Q: Array, lower: Array, upper: Array, wish: Array | None = Non
     R = Q[near]
     sign = np.where(R[:, 8] < 0, -1.0, 1.0)
     shared = np.arctan2(sign * R[:, 3] - R[:, 1], sign * R[:, 0] + R[:, 4])
-    away = shared - (middle[0] + sign * middle[2])
-    away -= TURN * np.rint(away / TURN)
+    away = without_turns(shared - (middle[0] + sign * middle[2]))
     split = 0.5 * (half[0] - half[2] + np.abs(away))
     best = np.sign(away) * np.clip(split, 0.0, np.abs(away))
     if wish is not None:
         least, most = np.maximum(-half[0], away - half[2]), np.minimum(half[0], away + half[2])
-        wished = out[near] - middle[0]
-        wished -= TURN * np.rint(wished / TURN)
+        wished = without_turns(out[near] - middle[0])
         best = np.where(least <= most, np.clip(wished, least, np.maximum(least, most)), best)
     out[near] = middle[0] + best
     return out

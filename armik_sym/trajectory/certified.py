@@ -64,6 +64,6 @@ def suspected(problem: SwivelProblem, bound: LowerBound) -> Outline | None:
         return None
     at = swivel_of_postures(problem.intervals.curves[0].spherical, bound.suspect, problem.reference)
     signs = np.column_stack([at.elbow, at.shoulder, at.wrist])
-    branch = (signs[:, None] == problem.intervals.branches[None]).all(axis=2).argmax(axis=1)
+    branch = problem.intervals.branch_of(signs)
     every = np.arange(len(bound.suspect))
     return Outline(Way(every, branch, np.unwrap(at.psi), bound.suspect, bound.value), bound.value)

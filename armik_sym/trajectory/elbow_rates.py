@@ -12,12 +12,11 @@ from armik_sym.arm.model import Arm
 from armik_sym.errors import LimitError
 from armik_sym.motion.hand_path import HandPath
 from armik_sym.swivel.constants import TURN
-from armik_sym.swivel.equivalent_angles import nearest_in_range
 from armik_sym.swivel.intervals import FeasibleIntervals
+from armik_sym.trajectory.global_path.elbow_change import ELBOW, elbow_angles
 
 Array = NDArray[np.float64]
 
-_ELBOW = 3
 # Limits that are missed by less than this share are left to the solver.
 _ROUNDING = 1e-9
 
@@ -43,23 +42,18 @@ def check_elbow_rates(
     Source:
         None (this package).
     """
-    if arm.rom.width[_ELBOW] >= TURN:
+    if arm.rom.width[ELBOW] >= TURN:
         return  # which of the angles a turn apart is taken is up to the solver
-    low, high, middle = (
-        limit[_ELBOW : _ELBOW + 1] for limit in (arm.rom.lower, arm.rom.upper, arm.rom.middle)
-    )
-    theta = np.array(
-        [nearest_in_range(curve.elbow[:, None], low, high, middle)[:, 0] for curve in intervals.curves]
-    )
+    theta = elbow_angles(intervals)
     pairs = intervals.empty.shape[1] // 2
     theta[0, intervals.empty[:, :pairs].all(axis=1)] = np.nan
     theta[1, intervals.empty[:, pairs:].all(axis=1)] = np.nan
     h = np.diff(path.time)
-    _refuse(arm, "max_speed", _least(theta, [-1 / h, 1 / h]), float(max_speed[_ELBOW]), "/s")
+    _refuse(arm, "max_speed", _least(theta, [-1 / h, 1 / h]), float(max_speed[ELBOW]), "/s")
     if len(path) >= 3:
         share = 0.5 * (h[:-1] + h[1:])
         factors = [1 / (h[:-1] * share), -(1 / h[:-1] + 1 / h[1:]) / share, 1 / (h[1:] * share)]
-        _refuse(arm, "max_acceleration", _least(theta, factors), float(max_acceleration[_ELBOW]), "/s²")
+        _refuse(arm, "max_acceleration", _least(theta, factors), float(max_acceleration[ELBOW]), "/s²")
 
 
 def _least(theta: Array, factors: list[Array]) -> Array:
@@ -75,9 +69,9 @@ def _least(theta: Array, factors: list[Array]) -> Array:
 def _refuse(arm: Arm, limit: str, least: Array, allowed: float, per: str) -> None:
     if not least.size or not np.nanmax(least) > allowed * (1 + _ROUNDING):
         return
-    k, unit = int(np.nanargmax(least)), joint_unit(arm, _ELBOW)
+    k, unit = int(np.nanargmax(least)), joint_unit(arm, ELBOW)
     raise LimitError(
-        f"the path moves {arm.joint_names[_ELBOW]} at {unit.text(least[k], 4, per)} after sample {k}, "
+        f"the path moves {arm.joint_names[ELBOW]} at {unit.text(least[k], 4, per)} after sample {k}, "
         f"whatever the other joints do, but {limit} allows {unit.text(allowed, 4, per)}: raise {limit}, slow "
         'the path down, or use tracking="soft"'
     )

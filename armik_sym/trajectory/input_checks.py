@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.arm.dh import JointType
 from armik_sym.arm.display_units import joint_unit
 from armik_sym.arm.model import Arm
 from armik_sym.errors import LimitError, OptionError
@@ -86,8 +85,7 @@ def check_hand_speed(arm: Arm, path: HandPath, max_speed: Array) -> None:
     Source:
         None (bound of the Jacobian by the reach).
     """
-    revolute = np.array([link.joint is JointType.REVOLUTE for link in arm.chain.moving_links])
-    fastest = float(np.where(revolute, arm.reach, 1.0) @ max_speed)
+    fastest = float(np.where(arm.rotates, arm.reach, 1.0) @ max_speed)
     speed = np.linalg.norm(np.diff(path.position, axis=0), axis=1) / np.diff(path.time)
     k = int(np.argmax(speed))
     if speed[k] > fastest:

@@ -70,13 +70,12 @@ def map_guess(request: Request) -> Guess | None:
     nodes = _joined([spread_nodes(one, usable, _SPACING, request.backend) for one in maps])
     if request.start is not None and usable[0] == 0:
         nodes = nodes.with_first(0, 0, 0.0, request.start)
-    library = trajectory_library(request.backend).library
+    library = trajectory_library(request.backend)
     search = WaySearch(nodes, _costs(request, nodes, usable), _edges(request, usable), library)
     way = search.cheapest()
     if way is None:
         return None
-    time = request.path.time
-    q = np.array([np.interp(time, time[usable], column) for column in way.q.T]).T
+    q = way.straight(request.path.time)
     return Guess(q, np.zeros(len(q)), "way through the swivel map")
 
 

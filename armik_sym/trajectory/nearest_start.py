@@ -45,13 +45,13 @@ def nearest_on_curve(intervals: FeasibleIntervals, start: Array, backend: Backen
     postures = nearest_in_range(nodes.q, rom.lower, rom.upper, start)
     away = np.square(postures - start).sum(axis=1)
     best, least = postures[int(away.argmin())], float(away.min())
+    library = trajectory_library(backend)
     aim = Smoothness(np.zeros(0), np.zeros((0, 3)), np.ones(1), start[None])
     for k in np.argsort(away, kind="stable")[:_TRIED]:
         of_branch = np.flatnonzero((intervals.sample == 0) & (intervals.branch == nodes.branch[k]))
         start_, end = intervals.start[of_branch], intervals.end[of_branch]
         i = int(np.argmin(np.maximum(start_ - nodes.psi[k], nodes.psi[k] - end)))
         rows = curve_parameters(intervals, nodes.sample[[k]], nodes.branch[[k]], postures[[k]])
-        library = trajectory_library(backend).library
         bounds = start_[[i]], end[[i]]
         down = go_down(library, rows, aim, nodes.psi[[k]], *bounds, postures[[k]], rom)
         q = down.objective.value(down.x)[1][0]

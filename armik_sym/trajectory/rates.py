@@ -9,6 +9,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _NEAREST = 0.1
+# At high sampling rates second differences weigh 1/h³: brought back to the size IPOPT's own constants are
+# made for. A factor on the objective changes no optimum.
+_LARGEST_CURVATURE = 1e4
+# IPOPT satisfies constraints to 1e-10; limits are drawn in by more than that, so that they hold exactly.
+_RELATIVE_MARGIN = 1e-8
+MARGIN = 2e-10
 
 
 def speed_matrix(time: Array) -> sp.csr_array:
@@ -106,8 +112,24 @@ def smoothness_rows(
     Source:
         None (this package).
     """
-    n = len(time)
-    speed, bend, hold = smoothness_weights(time, speed_weight, acceleration_weight, posture_weight)
+    return rows_of_weights(*smoothness_weights(time, speed_weight, acceleration_weight, posture_weight))
+
+
+def rows_of_weights(speed: Array, bend: Array, hold: Array) -> sp.csr_array:
+    """The squares of `smoothness_weights` as rows of a matrix, one kind after the other.
+
+    Args:
+        speed: Factors of differences, shape (n - 1,).
+        bend: Factors of three neighbours, shape (max(n - 2, 0), 3).
+        hold: Factors of single samples, shape (n,).
+
+    Returns:
+        Shape (n - 1 + max(n - 2, 0) + n, n).
+
+    Source:
+        None (bookkeeping).
+    """
+    n = len(hold)
     rows = [_banded([-speed, speed], n), *([_banded(list(bend.T), n)] if n >= 3 else [])]
     return sp.csr_array(sp.vstack([*rows, sp.diags_array(hold)]))
 
@@ -137,6 +159,36 @@ def smoothness_weights(
     factor = np.sqrt(acceleration_weight / share)
     bend = np.column_stack([factor / h[:-1], -factor * (1 / h[:-1] + 1 / h[1:]), factor / h[1:]])
     return np.sqrt(speed_weight / h), bend, np.sqrt(posture_weight * sample_durations(time))
+
+
+def objective_scale(curvature: float) -> float:
+    """The factor that brings an objective to the size IPOPT is made for.
+
+    Args:
+        curvature: Largest second derivative over one angle.
+
+    Returns:
+        At most 1.
+
+    Source:
+        None (this package).
+    """
+    return _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, curvature)
+
+
+def drawn_in(limit: Array) -> Array:
+    """Limits on rates as IPOPT gets them, so that those that were asked for hold exactly.
+
+    Args:
+        limit: Limits on speed or acceleration, of any shape.
+
+    Returns:
+        Smaller ones, of the same shape.
+
+    Source:
+        None (this package).
+    """
+    return np.asarray(np.maximum(limit * (1 - _RELATIVE_MARGIN) - MARGIN, 0.5 * limit))
 
 
 def _banded(bands: list[Array], n: int) -> sp.csr_array:

@@ -41,8 +41,9 @@ def solve_trajectory(
 ) -> Solution:
     """Solve the inverse kinematics of a whole hand path at once.
 
-    minimise ½∫ w_v|q̇|² + w_a|q̈|² + w_p|q - middle|² dt subject to hand(q_k) = sample k, lower ≤ q_k ≤
-    upper, |q̇| ≤ max_speed, |q̈| ≤ max_acceleration.
+    minimise ½∫ w_v|q̇|² + w_a|q̈|² + w_p|q - preferred|² dt + ∫ ℓ(q) dt subject to hand(q_k) = sample k,
+    lower ≤ q_k ≤ upper, |q̇| ≤ max_speed, |q̈| ≤ max_acceleration. ℓ is what clearance and preferred elbow
+    direction cost.
 
     For full poses of an arm with spherical shoulder and wrist the unknown is one curve, the swivel angle: a
     global search through the swivel map finds the corridor, IPOPT the optimum in it. Everything else is
@@ -83,7 +84,8 @@ def solve_trajectory(
 def _outcomes(request: Request) -> tuple[Sequence[Outcome], float]:
     """Trajectories, the best first, and the seconds the compiler took."""
     found, known = SwivelOutcome((), (), 0.0), tuple[Guess, ...]()
-    if _by_swivel(request):
+    by_swivel = _by_swivel(request)
+    if by_swivel:
         found = solve_over_swivel(request)
         known = found.guesses
     elif request.options.search != "full-space" and (guess := map_guess(request)) is not None:
@@ -97,7 +99,7 @@ def _outcomes(request: Request) -> tuple[Sequence[Outcome], float]:
             "full space"
         )
     outcome = solve_in_full_space(request, known)
-    if _by_swivel(request):
+    if by_swivel:
         without = ", without a bound" if request.options.certify else ""
         outcome = dataclasses.replace(outcome, status=f"{outcome.status} in full space{without}")
     return (outcome,), found.compile_time + outcome.compile_time

@@ -30,7 +30,7 @@ from armik_sym.trajectory.one_curve.limits import Limits
 from armik_sym.trajectory.one_curve.parameters import wide_joints
 from armik_sym.trajectory.one_curve.polish import Polished
 from armik_sym.trajectory.outcome import Outcome
-from armik_sym.trajectory.posture_cost import posture_cost, preferred_posture
+from armik_sym.trajectory.posture_cost import PostureCost, posture_cost, preferred_posture
 from armik_sym.trajectory.request import Request
 from armik_sym.trajectory.unreachable_on_map import raise_unreachable_on_map
 
@@ -114,7 +114,7 @@ def solve_over_swivel(request: Request) -> SwivelOutcome:
             return SwivelOutcome((), (), compile_time)
         raise_unreachable_on_map(map_)
     check_elbow_rates(request.arm, request.path, map_.intervals, request.max_speed, request.max_acceleration)
-    problem = swivel_problem(request, map_)
+    problem = swivel_problem(request, map_, wishes)
     request.tell("global path")
     n_best = request.options.n_best
     found = outlines(problem)
@@ -138,16 +138,17 @@ def _compile(backend: Backend) -> float:
     """Compile both libraries at the same time; returns the seconds of the one that took longer."""
     with ThreadPoolExecutor(2) as both:
         one, other = both.submit(swivel_library, backend), both.submit(trajectory_library, backend)
-        libraries = one.result(), other.result().library
+        libraries = one.result(), other.result()
     return max((library.compile_time for library in libraries if library is not None), default=0.0)
 
 
-def swivel_problem(request: Request, map_: SwivelMap) -> SwivelProblem:
+def swivel_problem(request: Request, map_: SwivelMap, wishes: PostureCost | None) -> SwivelProblem:
     """The problem over the swivel angle.
 
     Args:
         request: What is asked.
         map_: The swivel map of its arm and path.
+        wishes: Clearance and preferred elbow direction; None if not asked for.
 
     Returns:
         The problem.
@@ -169,9 +170,9 @@ def swivel_problem(request: Request, map_: SwivelMap) -> SwivelProblem:
         aim=preferred_posture(arm, o.prefer),
         limits=Limits(request.max_speed, request.max_acceleration, arm.rom, wide_joints(intervals)),
         first=first,
-        library=trajectory_library(request.backend).library,
+        library=trajectory_library(request.backend),
         backend=request.backend,
-        posture_cost=posture_cost(arm, o, request.backend),
+        posture_cost=wishes,
         max_iterations=o.max_iterations,
         output=o.ipopt_output,
     )

@@ -25,6 +25,8 @@ from armik_sym.trajectory.options import TrajectoryOptions
 from armik_sym.trajectory.posture_cost import PostureCost, posture_cost, preferred_posture
 from armik_sym.trajectory.rates import (
     acceleration_matrix,
+    drawn_in,
+    objective_scale,
     sample_durations,
     smoothness_matrix,
     speed_matrix,
@@ -32,11 +34,6 @@ from armik_sym.trajectory.rates import (
 from armik_sym.trajectory.targets import stage_targets
 
 Array = NDArray[np.float64]
-
-# IPOPT satisfies rate rows to 1e-10; limits are drawn in by more than that, so that they hold exactly.
-_RATE_MARGIN = 1e-8
-_RATE_SLACK = 2e-10
-_LARGEST_CURVATURE = 1e4
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,8 +144,7 @@ class Task:
         if soft:
             lower = np.concatenate([lower, np.full(n * m, -np.inf)])
             upper = np.concatenate([upper, np.full(n * m, np.inf)])
-        limits = self._rate_limits() if rates else np.empty(0)
-        limits = np.maximum(limits * (1 - _RATE_MARGIN) - _RATE_SLACK, 0.5 * limits)
+        limits = drawn_in(self._rate_limits()) if rates else np.empty(0)
         return Bounds(
             lower,
             upper,
@@ -218,10 +214,8 @@ class Task:
             weights = np.outer(sample_durations(time), sigma**-2).ravel()
             P = sp.csc_array(sp.block_diag([P, sp.diags_array(weights)]))
             c = np.concatenate([c, np.zeros(len(weights))])
-        # At high sampling rates second differences weigh 1/h³: brought back to the size IPOPT's own
-        # constants are made for. A factor on the objective changes no optimum.
         largest = float(K.diagonal().max())
         if self.posture_cost is not None:
             largest += self.posture_cost.curvature * float(sample_durations(time).max())
-        scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, largest)
+        scale = objective_scale(largest)
         return QuadraticCost(scale * P, scale * c, scale)

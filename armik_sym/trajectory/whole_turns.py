@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.arm.range_of_motion import RangeOfMotion
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.constants import TURN
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.arm.model import Arm
+from armik_sym.compiled.address import address
 from armik_sym.compiled.build import Library
-from armik_sym.pointwise.address import address
 from armik_sym.pointwise.damped.found import Found
 from armik_sym.pointwise.damped.settings import DampedSettings
 

@@ -11,7 +11,7 @@ from armik_sym.compiled.backend import Backend
 from armik_sym.swivel.branches import swivel_of_postures
 from armik_sym.swivel.equivalent_angles import largest_difference
 from armik_sym.swivel.intervals import FeasibleIntervals
-from armik_sym.swivel.limit_cuts import zeros
+from armik_sym.swivel.limit_cuts import joint_coefficients, zeros
 from armik_sym.swivel.postures_at import postures_at
 from armik_sym.trajectory.global_path.search import Way
 
@@ -46,7 +46,7 @@ def with_samples(
     Source:
         None (this package).
     """
-    line = np.array([np.interp(time[further], time[way.sample], column) for column in way.q.T]).T
+    line = way.straight(time, further)
     before = np.searchsorted(way.sample, further) - 1
     branch, psi, away = _nearest(
         further, way.branch[before], way.branch[before + 1], line, intervals, reference, backend
@@ -171,9 +171,7 @@ def _across(intervals: FeasibleIntervals, branch: Indices, samples: Indices) -> 
     turned = signs * np.column_stack(
         [np.ones(len(samples)), np.where(shoulder, -1, 1), np.where(shoulder, 1, -1)]
     )
-    return np.array(
-        [np.flatnonzero((intervals.branches == row).all(axis=1))[0] for row in turned], dtype=np.int64
-    )
+    return intervals.branch_of(turned)
 
 
 def _nearest(
@@ -230,6 +228,6 @@ def _of_first_angles(further: Indices, branch: Indices, line: Array, intervals: 
         rows = np.flatnonzero(intervals.branches[branch, 0] == side)
         for i, triple in enumerate(curve.triples):
             C = curve.parts[further[rows], i]
-            angle = line[rows, triple.first, None]
-            found[rows, 2 * i : 2 * i + 2] = zeros(np.sin(angle) * C[:, :, 2] - np.cos(angle) * C[:, :, 5])
+            angle = line[rows, triple.first]
+            found[rows, 2 * i : 2 * i + 2] = zeros(joint_coefficients(C, triple, 0, angle))
     return found

@@ -13,6 +13,7 @@ from armik_sym.swivel.equivalent_angles import largest_difference
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.postures_at import postures_at
 from armik_sym.trajectory.global_path.monotone_cubic import monotone_cubic
+from armik_sym.trajectory.repeated import repeated
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -121,8 +122,8 @@ def _rows_of(intervals: FeasibleIntervals, samples: Indices) -> tuple[Indices, I
     """All intervals of some samples, and the place of the sample each belongs to; no look at the others."""
     begin = np.searchsorted(intervals.sample, samples)
     count = np.searchsorted(intervals.sample, samples, side="right") - begin
-    of = np.repeat(np.arange(len(samples)), count)
-    return of, begin[of] + np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count)
+    of, number = repeated(count)
+    return of, begin[of] + number
 
 
 def _around(start: Array, end: Array, psi: Array) -> tuple[Array, Array]:

@@ -10,10 +10,34 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armik_sym.swivel.equivalent_angles import nearest_in_range
+from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.trajectory.rates import smoothness_weights
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
+
+ELBOW = 3
+
+
+def elbow_angles(intervals: FeasibleIntervals) -> Array:
+    """Angle of the elbow on both sides.
+
+    Args:
+        intervals: The feasible intervals, with their curves.
+
+    Returns:
+        Shape (2, n), in [rad].
+
+    Source:
+        None (law of cosines, `SwivelCurve.elbow`).
+    """
+    rom = intervals.curves[0].spherical.arm.rom
+    part = slice(ELBOW, ELBOW + 1)
+    lower, upper, middle = rom.lower[part], rom.upper[part], rom.middle[None, part]
+    return np.array(
+        [nearest_in_range(c.elbow[:, None], lower, upper, middle)[:, 0] for c in intervals.curves]
+    )
 
 
 def elbow_change_costs(theta: Array, time: Array, knots: Indices, weight: float) -> Array:

@@ -8,10 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.swivel.branches import swivel_of_postures
-from armik_sym.swivel.equivalent_angles import nearest_in_range
-from armik_sym.trajectory.global_path.elbow_change import elbow_change_costs
+from armik_sym.trajectory.global_path.elbow_change import elbow_angles, elbow_change_costs
 from armik_sym.trajectory.global_path.nodes import Nodes, spread_nodes
-from armik_sym.trajectory.global_path.search import ELBOW
 from armik_sym.trajectory.global_path.shortest_path import Edges
 from armik_sym.trajectory.rates import sample_durations
 from armik_sym.trajectory.swivel_problem import SwivelProblem
@@ -102,31 +100,12 @@ def most_per_step(problem: SwivelProblem, knots: Indices) -> Array:
     return np.outer(np.diff(problem.path.time[knots]), problem.limits.max_speed) + _SLACK
 
 
-def elbow_angles(problem: SwivelProblem) -> Array:
-    """Angle of the elbow on both sides.
-
-    Args:
-        problem: The problem.
-
-    Returns:
-        Shape (2, n), in [rad].
-
-    Source:
-        None (law of cosines, `SwivelCurve.elbow`).
-    """
-    rom = problem.arm.rom
-    part = slice(ELBOW, ELBOW + 1)
-    lower, upper, middle = rom.lower[part], rom.upper[part], rom.middle[None, part]
-    sides = [nearest_in_range(c.elbow[:, None], lower, upper, middle)[:, 0] for c in problem.intervals.curves]
-    return np.array(sides)
-
-
 def _branch_of_first(problem: SwivelProblem) -> tuple[int, int, float]:
     """Branch, side of the elbow and swivel angle of the known posture."""
     spherical = problem.intervals.curves[0].spherical
     known = swivel_of_postures(spherical, np.asarray(problem.first)[None], problem.reference[:1])
     signs = np.array([known.elbow[0], known.shoulder[0], known.wrist[0]])
-    branch = int(np.flatnonzero((problem.intervals.branches == signs).all(axis=1))[0])
+    branch = int(problem.intervals.branch_of(signs[None])[0])
     return branch, int(known.elbow[0] < 0), float(known.psi[0])
 
 
@@ -137,7 +116,7 @@ def _edges(problem: SwivelProblem, knots: Indices) -> Edges:
         weight=max(weight, 1e-6) / np.diff(time[knots]),
         most=most_per_step(problem, knots),
         turns=turning_joints(problem),
-        change=elbow_change_costs(elbow_angles(problem), time, knots, weights[1]),
+        change=elbow_change_costs(elbow_angles(problem.intervals), time, knots, weights[1]),
     )
 
 

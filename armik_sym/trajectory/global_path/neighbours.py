@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.swivel.constants import TURN
-from armik_sym.swivel.limit_cuts import zeros
+from armik_sym.swivel.limit_cuts import joint_coefficients, zeros
 from armik_sym.swivel.postures_at import postures_at
 from armik_sym.trajectory.global_path.search import Way
 from armik_sym.trajectory.swivel_problem import SwivelProblem
@@ -82,7 +82,7 @@ def _beside(problem: SwivelProblem, way: Way, steps: Array) -> tuple[Indices, In
     close = np.maximum(gap[1:], gap[:-1]) == 1
     straight = np.flatnonzero(close & (np.abs(bend - TURN * np.rint(bend / TURN)) < 2 * _NEAR))
     layer = np.concatenate([np.arange(m), straight])
-    other = _with_signs(branches, branches[way.branch[straight]] * np.array([-1, 1, 1]))
+    other = problem.intervals.branch_of(branches[way.branch[straight]] * np.array([-1, 1, 1]))
     branch = np.concatenate([way.branch, other])
     # Bent to the other side, the elbow is on the other side of the line to the wrist.
     middle = way.psi[layer] + np.where(np.arange(len(layer)) < m, 0.0, np.pi)
@@ -100,13 +100,13 @@ def _across_pole(problem: SwivelProblem, way: Way, steps: Array, i: int) -> tupl
     C = np.empty((len(near), 3, 9))
     for side, curve in enumerate(intervals.curves):
         C[elbow == side] = curve.parts[way.sample[near[elbow == side]], i]
-    angle = (way.q[near, triple.first, None] + steps).ravel()[:, None]
+    angle = (way.q[near, triple.first, None] + steps).ravel()
     C, k = np.repeat(C, len(steps), axis=0), np.repeat(np.arange(len(near)), len(steps))
-    roots = zeros(np.sin(angle) * C[:, :, 2] - np.cos(angle) * C[:, :, 5])
+    roots = zeros(joint_coefficients(C, triple, 0, angle))
     turn = np.ones(3, dtype=np.int64)
     turn[1 + i] = -1
     own = way.branch[near]
-    over = _with_signs(intervals.branches, intervals.branches[own] * turn)
+    over = intervals.branch_of(intervals.branches[own] * turn)
     layer = np.tile(near[k], 4)
     branch = np.concatenate([own[k], own[k], over[k], over[k]])
     psi = np.tile(roots.T.ravel(), 2)
@@ -119,11 +119,6 @@ def _offset(problem: SwivelProblem, i: int) -> float:
     if i == 0:
         return float(spherical.shoulder.offset)
     return float(spherical.wrist.offset) if spherical.wrist else 0.0
-
-
-def _with_signs(branches: Indices, signs: Indices) -> Indices:
-    """Index of the branch with given signs, for each row."""
-    return np.asarray((signs[:, None] == branches).all(axis=2).argmax(axis=1), dtype=np.int64)
 
 
 def _in_layers(way: Way, layer: Indices, branch: Indices, psi: Array, q: Array, away: Array) -> Neighbours:

@@ -12,6 +12,7 @@ from armik_sym.swivel.closed_form import Postures
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.swivel.postures_at import postures_at
 from armik_sym.trajectory.global_path.pole_nodes import pole_nodes
+from armik_sym.trajectory.repeated import repeated
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -93,8 +94,7 @@ def spread_nodes(
     width = intervals.end[row] - intervals.start[row]
     count = np.maximum(np.ceil(width / spacing).astype(np.int64) + 1, _FEWEST)
     count[width <= 0] = 1
-    interval = np.repeat(np.arange(len(row)), count)
-    place = np.arange(len(interval)) - np.repeat(np.cumsum(count) - count, count)
+    interval, place = repeated(count)
     part = place / np.maximum(count[interval] - 1, 1)
     psi = intervals.start[row][interval] + part * width[interval]
     beside_pole, psi_beside = pole_nodes(intervals, row)
@@ -138,6 +138,5 @@ def _in_between(interval: Indices, psi: Array, q: Array, spacing: float) -> tupl
     gap = np.abs(np.diff(q, axis=0)).max(axis=1, initial=0.0)
     extra = np.clip(np.ceil(gap / (2 * spacing)).astype(np.int64) - 1, 0, _MOST_BETWEEN)
     extra[interval[1:] != interval[:-1]] = 0
-    left = np.repeat(np.arange(len(extra)), extra)
-    place = 1 + np.arange(len(left)) - np.repeat(np.cumsum(extra) - extra, extra)
-    return left, psi[left] + (psi[left + 1] - psi[left]) * place / (extra[left] + 1)
+    left, number = repeated(extra)
+    return left, psi[left] + (psi[left + 1] - psi[left]) * (number + 1) / (extra[left] + 1)

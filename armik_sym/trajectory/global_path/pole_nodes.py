@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armik_sym.swivel.axis_triple import AxisTriple
 from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
-from armik_sym.swivel.limit_cuts import zeros
+from armik_sym.swivel.limit_cuts import joint_coefficients, zeros
+from armik_sym.trajectory.repeated import repeated
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -37,11 +39,11 @@ def pole_nodes(intervals: FeasibleIntervals, rows: Indices) -> tuple[Indices, Ar
     for s, curve in enumerate(intervals.curves):
         here = np.flatnonzero(side == s)
         samples, inverse = np.unique(intervals.sample[rows[here]], return_inverse=True)
-        for i in range(len(curve.triples)):
+        for i, triple in enumerate(curve.triples):
             C = curve.parts[samples, i]
             extreme = np.arctan2(C[:, 2, 8], C[:, 1, 8])
             for half in (0.0, np.pi):
-                which, psi = _around(C, extreme + half)
+                which, psi = _around(C, triple, extreme + half)
                 if not which.size:
                     continue
                 row, angle = _inside(intervals, rows[here], inverse, which, psi)
@@ -50,7 +52,7 @@ def pole_nodes(intervals: FeasibleIntervals, rows: Indices) -> tuple[Indices, Ar
     return np.concatenate(found_row), np.concatenate(found_psi)
 
 
-def _around(C: Array, pole: Array) -> tuple[Indices, Array]:
+def _around(C: Array, triple: AxisTriple, pole: Array) -> tuple[Indices, Array]:
     """Swivel angles beside poles that are near, and whose they are."""
     turn = np.column_stack([np.ones(len(pole)), np.cos(pole), np.sin(pole)])
     distance = np.hypot((C[:, :, 2] * turn).sum(axis=1), (C[:, :, 5] * turn).sum(axis=1))
@@ -60,8 +62,7 @@ def _around(C: Array, pole: Array) -> tuple[Indices, Array]:
         return through, pole[through]
     alpha = np.arange(_DIRECTIONS) * (np.pi / _DIRECTIONS)
     which = np.repeat(beside, _DIRECTIONS)
-    angle = np.tile(alpha, len(beside))[:, None]
-    roots = zeros(np.sin(angle) * C[which, :, 2] - np.cos(angle) * C[which, :, 5])
+    roots = zeros(joint_coefficients(C[which], triple, 0, np.tile(alpha, len(beside))))
     away = roots - pole[which, None]
     away -= TURN * np.rint(away / TURN)
     nearest = np.nanargmin(np.where(np.isnan(away), np.inf, np.abs(away)), axis=1) if len(which) else which
@@ -78,8 +79,8 @@ def _inside(
     which, psi = which[order], psi[order]
     first = np.searchsorted(which, sample_of_row)
     count = np.searchsorted(which, sample_of_row, side="right") - first
-    row = np.repeat(np.arange(len(rows)), count)
-    place = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count) + first[row]
+    row, number = repeated(count)
+    place = first[row] + number
     start, end = intervals.start[rows[row]], intervals.end[rows[row]]
     angle = psi[place] + TURN * np.ceil((start - psi[place]) / TURN)
     inside = angle <= end

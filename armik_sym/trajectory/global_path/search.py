@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.compiled.build import Library
+from armik_sym.trajectory.global_path.elbow_change import ELBOW
 from armik_sym.trajectory.global_path.nodes import Nodes
 from armik_sym.trajectory.global_path.shortest_path import Edges, Reached, shortest_path
 
@@ -19,7 +20,6 @@ Indices = NDArray[np.int64]
 DIFFERENT = 0.25
 # … where the elbow, if it is bent to the other side, counts this many times more.
 _ACROSS = 4.0
-ELBOW = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +44,22 @@ class Way:
     def side(self) -> Indices:
         """Side of the elbow at each, 0 for 1 and 1 for -1, shape (m,)."""
         return np.asarray(self.branch >= 4, dtype=np.int64)
+
+    def straight(self, time: Array, samples: Indices | None = None) -> Array:
+        """Joint angles straight from one of its samples to the next.
+
+        Args:
+            time: Time stamps of the path, shape (n,), in [s].
+            samples: Where they are wanted, shape (k,); at all n samples if left out.
+
+        Returns:
+            Shape (k, dof), in [rad].
+
+        Source:
+            None (linear interpolation).
+        """
+        at = time if samples is None else time[samples]
+        return np.array([np.interp(at, time[self.sample], column) for column in self.q.T]).T
 
 
 class WaySearch:

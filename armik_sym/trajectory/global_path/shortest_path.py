@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from armik_sym.compiled.address import address
 from armik_sym.compiled.build import Library
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.constants import TURN
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]

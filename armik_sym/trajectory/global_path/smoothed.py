@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from armik_sym.trajectory.global_path.corridor import corridor
 from armik_sym.trajectory.global_path.search import Way
 from armik_sym.trajectory.one_curve.go_down import go_down
-from armik_sym.trajectory.one_curve.parameters import curve_parameters, wide_joints
+from armik_sym.trajectory.one_curve.parameters import curve_parameters
 from armik_sym.trajectory.one_curve.smoothness import Smoothness
 from armik_sym.trajectory.swivel_problem import SwivelProblem
 
@@ -49,7 +49,7 @@ def smoothed(
         Bertsekas (1982), doi:10.1137/0320018 (projected Newton).
     """
     q = way.q.copy()
-    turning = np.flatnonzero(wide_joints(problem.intervals))
+    turning = np.flatnonzero(problem.limits.wide)
     q[:, turning] = np.unwrap(q[:, turning], axis=0)
     rows = curve_parameters(problem.intervals, way.sample, way.branch, q)
     band = corridor(problem.intervals, way.branch, way.psi, q, problem.backend, way.sample)

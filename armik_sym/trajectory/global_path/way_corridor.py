@@ -25,9 +25,7 @@ def joint_guess(problem: SwivelProblem, way: Way) -> Array:
     Source:
         None (linear interpolation).
     """
-    time = problem.path.time
-    columns = [np.interp(time, time[way.sample], column) for column in way.q.T]
-    return np.array(columns).T
+    return way.straight(problem.path.time)
 
 
 def corridor_of(problem: SwivelProblem, way: Way) -> Corridor:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.trajectory.lower_bound.triple_rates import least_sine
+from armik_sym.trajectory.repeated import repeated
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -113,8 +114,7 @@ def arcs_of(intervals: FeasibleIntervals, samples: Indices, width: float) -> Arc
     rows = np.flatnonzero(np.isin(intervals.sample, samples))
     start, end = intervals.start[rows], intervals.end[rows]
     count = np.maximum(np.ceil((end - start) / width), 1).astype(np.int64)
-    row = np.arange(len(rows)).repeat(count)
-    number = np.arange(len(row)) - (np.cumsum(count) - count)[row]
+    row, number = repeated(count)
     step = ((end - start) / count)[row]
     low = start[row] + step * number
     high = np.where(number + 1 == count[row], end[row], start[row] + step * (number + 1))

@@ -12,6 +12,7 @@ from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.trajectory.lower_bound.arcs import ANYWHERE, Arcs
 from armik_sym.trajectory.lower_bound.triple_rates import triple_rates
+from armik_sym.trajectory.repeated import repeated
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -131,8 +132,7 @@ def _with_whole_turns(cells: _Sheets, lower: Array, upper: Array) -> Cells:
         free = ~cells.bounded[arc, j]
         first, last = np.where(free, 0, first), np.where(free, 0, last)
         count = np.maximum(last - first + 1, 0)
-        row = np.arange(len(q)).repeat(count)
-        number = np.arange(len(row)) - (np.cumsum(count) - count)[row]
+        row, number = repeated(count)
         q, arc = q[row].copy(), arc[row]
         q[:, j] += TURN * (first[row] + number)
     tangent, spread = cells.tangent[arc], cells.spread[arc] + _ROUNDING

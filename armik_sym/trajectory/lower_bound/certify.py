@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from armik_sym.errors import OptionError, ShapeError
 from armik_sym.solution.lower_bound import LowerBound
 from armik_sym.swivel.constants import TURN
+from armik_sym.swivel.equivalent_angles import without_turns
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.trajectory.lower_bound.linearised import objective_of
 from armik_sym.trajectory.lower_bound.problem import Problem, beside_chain
@@ -118,8 +119,7 @@ def _searched(intervals: FeasibleIntervals, q: Array, gradient: Array) -> tuple[
     if len(sides) != 1 or not covered or rom.width[3] >= TURN:
         return joints, 0.0
     elbow = intervals.curves[0 if sides[0] == 1 else 1].elbow
-    away = elbow - q[:, 3]
-    away -= TURN * np.rint(away / TURN)
+    away = without_turns(elbow - q[:, 3])
     if np.abs(away).max() > _ON_CURVE:
         return joints, 0.0
     return np.delete(joints, 3), float(away @ gradient[:, 3])

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.arm.range_of_motion import RangeOfMotion
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.limit_cuts import zeros
 from armik_sym.trajectory.one_curve.stage import (
     BRANCH,

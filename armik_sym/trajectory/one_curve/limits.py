@@ -11,14 +11,11 @@ from numpy.typing import NDArray
 
 from armik_sym.arm.range_of_motion import RangeOfMotion
 from armik_sym.solution.motion_rates import joint_acceleration, joint_speed
-from armik_sym.trajectory.rates import acceleration_matrix, speed_matrix
+from armik_sym.trajectory.rates import MARGIN, acceleration_matrix, drawn_in, speed_matrix
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# IPOPT satisfies constraints to 1e-10; limits are drawn in by more than that, so that they hold exactly.
-_RELATIVE_MARGIN = 1e-8
-_MARGIN = 2e-10
 # Rounding of a joint angle, in [rad]: what is outside by less is put back inside in the end.
 _ROUNDED = 1e-12
 # Once a limit is exceeded somewhere, it is watched wherever more than this share of it is used.
@@ -102,11 +99,11 @@ class Limits:
 
     def _kind(self, kind: str, time: Array) -> tuple[sp.csr_array, Array, Array]:
         if kind == "range":
-            low = np.where(self.wide, self.rom.lower + _MARGIN, -np.inf)
-            high = np.where(self.wide, self.rom.upper - _MARGIN, np.inf)
+            low = np.where(self.wide, self.rom.lower + MARGIN, -np.inf)
+            high = np.where(self.wide, self.rom.upper - MARGIN, np.inf)
             return sp.csr_array(sp.eye_array(len(time))), low, high
         limit = self.max_speed if kind == "speed" else self.max_acceleration
-        inside = np.maximum(limit * (1 - _RELATIVE_MARGIN) - _MARGIN, 0.5 * limit)
+        inside = drawn_in(limit)
         matrix = speed_matrix(time) if kind == "speed" else acceleration_matrix(time)
         return matrix, -inside, inside
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armik_sym.swivel.equivalent_angles import TURN
+from armik_sym.swivel.constants import TURN
 from armik_sym.swivel.intervals import FeasibleIntervals
 from armik_sym.trajectory.one_curve.stage import BRANCH, OFFSET, PARTS, REFERENCE, SIZE
 

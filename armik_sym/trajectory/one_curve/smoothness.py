@@ -9,13 +9,9 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from armik_sym.trajectory.posture_cost import PostureCost
-from armik_sym.trajectory.rates import sample_durations, smoothness_weights
+from armik_sym.trajectory.rates import objective_scale, rows_of_weights, sample_durations, smoothness_weights
 
 Array = NDArray[np.float64]
-
-# At high sampling rates second differences weigh 1/h³: brought back to the size IPOPT's own constants are
-# made for. A factor on the objective changes no optimum.
-_LARGEST_CURVATURE = 1e4
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +45,7 @@ class Smoothness:
         Source:
             None (bookkeeping).
         """
-        n = len(self.hold)
-        rows = [sp.diags_array(np.array([-self.speed, self.speed]), offsets=[0, 1], shape=(n - 1, n))]
-        if n >= 3:
-            rows.append(sp.diags_array(self.bend.T, offsets=[0, 1, 2], shape=(n - 2, n)))
-        return sp.csr_array(sp.vstack([*rows, sp.diags_array(self.hold)]))
+        return rows_of_weights(self.speed, self.bend, self.hold)
 
 
 def smoothness(
@@ -80,7 +72,7 @@ def smoothness(
     diagonal[1:] += np.square(speed)
     for i in range(3):
         diagonal[i : n - 2 + i] += np.square(bend[:, i])
-    scale = _LARGEST_CURVATURE / max(_LARGEST_CURVATURE, float(diagonal.max()))
+    scale = objective_scale(float(diagonal.max()))
     r = np.sqrt(scale)
     share = None if posture_cost is None else scale * sample_durations(time)
     return Smoothness(r * speed, r * bend, r * hold, np.tile(aim, (n, 1)), scale, posture_cost, share)

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from armik_sym.arm.dh import JointType
 from armik_sym.arm.model import Arm
 from armik_sym.errors import OptionError
 
@@ -84,8 +83,7 @@ def clearance_of_joints(arm: Arm, clearance: ArrayLike, weight: float) -> Cleara
             f"clearance has {wanted.size} numbers, but arm {arm.name!r} has {arm.dof} joints: {_EXPECTED}"
         )
     if wanted.ndim == 0:
-        turns = [link.joint is JointType.REVOLUTE for link in arm.chain.moving_links]
-        wanted = np.where(turns, wanted, 0.0)
+        wanted = np.where(arm.rotates, wanted, 0.0)
     distance = np.minimum(wanted, 0.5 * arm.rom.width)
     share = np.divide(distance, wanted, out=np.zeros(arm.dof), where=wanted > 0)
     room = distance > _NO_ROOM

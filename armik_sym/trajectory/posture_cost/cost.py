@@ -20,6 +20,7 @@ from armik_sym.compiled.structure import ArmStructure
 from armik_sym.errors import ArmModelError, OptionError, ShapeError
 from armik_sym.swivel.spherical_arm import recognise
 from armik_sym.symbolic import express
+from armik_sym.symbolic.dense_function import dense_function
 from armik_sym.trajectory.posture_cost.clearance import clearance_of_joints
 from armik_sym.trajectory.posture_cost.expressions import cost_functions, upper_arm_frame
 from armik_sym.trajectory.posture_cost.preference import elbow_direction, wants_elbow
@@ -160,7 +161,7 @@ def _without_lengths(value: ca.Function, n_lengths: int) -> ca.Function:
     """ℓ as a Function (q, parameters), the form of which there are loops over postures."""
     q, parameters = (ca.SX.sym(value.name_in(i), value.numel_in(i)) for i in (0, 2))
     costs = value(q, ca.SX.zeros(n_lengths), parameters)
-    return ca.Function("posture_costs", [q, parameters], [ca.cse(costs)], ["q", "parameters"], ["out"])
+    return dense_function("posture_costs", {"q": q, "parameters": parameters}, costs)
 
 
 def _elbow_in_upper_arm(arm: Arm) -> Array:
