@@ -9,7 +9,10 @@ import pytest
 from hypothesis import settings
 
 # Compiling and first calls make single examples slow on a busy machine; that is no failure.
-settings.register_profile("armik", deadline=None)
+# The same examples every time, so that one commit has one verdict; to look for new ones:
+# pytest --hypothesis-profile=explore
+settings.register_profile("armik", deadline=None, derandomize=True)
+settings.register_profile("explore", deadline=None)
 settings.load_profile("armik")
 
 REPOSITORY = Path(__file__).resolve().parent.parent

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curve_problems import CHARTS, FIRST, MIDDLE, Curves, curves_of
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from random_trajectories import singular_angles, wider
 from spherical_arms import ARMS, odd, pose_error
@@ -214,6 +214,8 @@ def test_far_from_poles_the_swivel_angle_is_the_coordinate():
 
 
 @settings(max_examples=50)
+@example(5401, -7.0, "shoulder of human", 0.0, 0.0)
+@example(168, -6.82663600581242, "shoulder of human", -0.5, 0.5)
 @given(
     seed=st.integers(0, 10_000),
     exponent=st.floats(-7, -1),
@@ -235,5 +237,8 @@ def test_whatever_is_wanted_every_coordinate_is_sound(seed, exponent, pole, shif
         psi, q = charts.swivel_angles(x), values("angles", charts.chart, x, charts.rows)
         assert np.all((psi >= lower - 1e-8) & (psi <= upper + 1e-8))
         assert pose_error(arm, q, curves.position, curves.rotation) <= 1e-9
-        # Where ψ is the coordinate, rounding of an interval's end beside the pole is seen in the angles.
-        assert arm.rom.margin(q)[:, limited].min() >= -1e-9 - 1e-15 / 10.0**exponent
+        # Where ψ is the coordinate, rounding of the pose (some 1e-15 of an interval's end) is seen in the
+        # angles as many times larger as they turn faster than ψ there: up to 1e8 times, beside a pole.
+        slope = values("second", np.zeros(len(psi)), psi, curves.rows)[:, 7:14]
+        room = 1e-9 + 1e-14 * np.abs(slope).max(axis=1)
+        assert np.all(arm.rom.margin(q)[:, limited] >= -room[:, None])

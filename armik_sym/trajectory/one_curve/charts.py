@@ -260,10 +260,15 @@ def _entries(rows: Array, kind: int) -> tuple[Array, Array]:
     return C[:, :, 2], C[:, :, 5]
 
 
-def _of_angle(rows: Array, kind: int, angle: Array) -> Array:
-    """Both swivel angles at which the first angle (or the opposite one) has a value."""
+def _equation(rows: Array, kind: int, angle: Array) -> Array:
+    """a, b, c of a + b·cos ψ + c·sin ψ = 0 for the first angle (or the opposite one) to have a value."""
     x, y = _entries(rows, kind)
-    return zeros(np.sin(angle)[:, None] * x - np.cos(angle)[:, None] * y)
+    return np.asarray(np.sin(angle)[:, None] * x - np.cos(angle)[:, None] * y)
+
+
+def _of_angle(rows: Array, kind: int, angle: Array) -> Array:
+    """Both swivel angles at which the first angle (or the opposite one) has a value; NaN if none has."""
+    return zeros(_equation(rows, kind, angle))
 
 
 def _alongside(rows: Array, kind: int, angle: Array, psi: Array) -> Array:
@@ -275,9 +280,16 @@ def _alongside(rows: Array, kind: int, angle: Array, psi: Array) -> Array:
 
 
 def _on_root(rows: Array, kind: int, angle: Array, near: Array) -> Array:
-    """The swivel angle at which the first angle has a value, on the root that the rows name."""
-    found = _of_angle(rows, kind, angle)
+    """The swivel angle at which the first angle has a value, on the root that the rows name.
+
+    A curve that passes a pole by next to nothing counts as going through it (`_at_pole`) and may miss
+    the last few microradians before its turning point: then the turning point, as in `stage`.
+    """
+    equation = _equation(rows, kind, angle)
+    found = zeros(equation)
     root = np.where(rows[:, ROOT[0]] > 0, found[:, 1], found[:, 0])
+    a, b, c = equation.T
+    root = np.where(np.isnan(root), np.arctan2(c, b) + np.pi * (a > 0), root)
     return np.asarray(root + TURN * np.rint((near - root) / TURN))
 
 
