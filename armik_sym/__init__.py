@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         RangeOfMotion,
         catalog,
         load_arm,
+        save_arm,
         save_urdf,
         segment_lengths,
     )
@@ -89,6 +90,7 @@ __all__ = [
     "read_motion",
     "read_path",
     "read_storage",
+    "save_arm",
     "save_urdf",
     "segment_lengths",
     "solve",
@@ -107,7 +109,7 @@ __all__ = [
 _HOMES = {
     "armik_sym.arm": (
         "Arm", "DHChain", "DHConvention", "DHLink", "JointType", "RangeOfMotion", "catalog", "load_arm",
-        "save_urdf", "segment_lengths",
+        "save_arm", "save_urdf", "segment_lengths",
     ),
     "armik_sym.comparison": ("Comparison", "compare", "constant_swivel"),
     "armik_sym.compiled": ("Kinematics", "compile"),

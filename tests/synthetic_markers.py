@@ -58,10 +58,18 @@ def known_markers(
     noise: float = 0.0,
     sway: float = 0.0,
     lengths: Mapping[str, float] = LENGTHS,
+    straight: tuple[float, float] | None = None,
 ) -> Known:
-    """Markers with white noise [m] on a shoulder that sways [m]; every marker is there in every sample."""
+    """Markers with white noise [m] on a shoulder that sways [m]; every marker is there in every sample.
+
+    From one share of the time to another the elbow may be straight.
+    """
     arm = ak.catalog.human().with_lengths(**lengths)
     q = slow_angles(arm, n, seed)
+    if straight is not None:
+        share = np.linspace(0.0, 1.0, n)
+        near = np.clip(np.minimum(share - straight[0], straight[1] - share) / 0.15 + 1.0, 0.0, 1.0)
+        q[:, 3] *= 1.0 - near**2 * (3.0 - 2.0 * near)
     frames = joint_frames(arm.chain, q, arm.lengths)
     elbow, wrist, hand = (frames[:, k, :3, 3] for k in (ELBOW, WRIST, HAND))
     hinge, ulnar = frames[:, ELBOW, :3, 2], frames[:, HAND, :3, 1]

@@ -177,7 +177,6 @@ def test_wrong_options_are_refused_with_the_valid_ones(motion, tmp_path):
         (("--method", "guess"), "swivel-constant"),
         (("--backend", "gpu"), "auto, c, vm"),
         (("--base", "floating"), "'fixed' or 'moving'"),
-        (("--arm", "ehmcs"), "about markers"),
     ):
         result = run("compare", tmp_path / "reach.csv", *typed, *said)
         assert result.exit_code == 2, typed

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from sample_arms import ARMS
 from smooth_motions import smooth_angles
 from solutions import of_motion
@@ -59,6 +60,7 @@ def test_solved_is_a_line_and_measured_a_broken_one_so_that_grey_prints_tell_the
     text = words(figure)
     assert "solved, method by hand" in text
     assert "measured" in text
+    assert "range of motion of the arm" in text
     assert "mean 3.0, max 3.0 deg" in text
 
 
@@ -82,6 +84,19 @@ def test_notes_and_verdict_are_on_the_page():
     text = words(ak.compare(solution, measured).plot())
     assert "missing at 4 of 50 samples" in text
     assert "Solution not ok: " in text
+
+
+def test_no_line_of_the_head_leaves_the_page():
+    arm = ARMS["human"]
+    q = smooth_angles(arm, 50, 2)
+    solution = of_motion(arm, q, max_speed=1e-3, max_acceleration=1e-3)
+    measured = q.copy()
+    measured[5:9] = np.nan
+    figure = ak.compare(solution, measured).plot(title="drinking from a full cup")
+    FigureCanvasAgg(figure).draw()
+    lines = [text.get_window_extent() for text in figure.texts]
+    assert len(lines) > 4
+    assert max(line.x1 for line in lines) < figure.bbox.x1
 
 
 def test_nothing_measured_of_a_joint_and_one_sample_can_be_drawn(tmp_path):

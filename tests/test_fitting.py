@@ -263,3 +263,21 @@ def test_a_straight_arm_is_flagged() -> None:
     assert fit.straight[0]
     assert not fit.straight[20:].any()
     assert "straight" in str(fit)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_an_arm_that_is_straight_for_a_while_is_recovered_on_both_sides_of_it(seed: int) -> None:
+    # Noise turns the elbow of the straight arm anyhow: the turns it makes must not stay in the angles.
+    known = known_markers(n=300, seed=seed, noise=0.001, straight=(0.4, 0.6))
+    fit = fitted(known)
+    assert fit.straight.sum() > 30
+    bent = np.r_[0:50, 250:300]
+    assert not fit.outside[bent].any()
+    assert np.rad2deg(np.abs(fit.unlimited.q - known.q)[bent].max()) < 10.0
+
+
+def test_what_noise_leaves_open_is_said_to_be_open() -> None:
+    still = known_markers(n=50, noise=0.0002, straight=(-1.0, 2.0))
+    text = str(fitted(still))
+    assert "shoulder internal rotation > 60°" in text
+    assert "elbow flexion > 60°" not in text

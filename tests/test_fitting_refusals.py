@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -65,9 +66,46 @@ def test_a_marker_that_is_never_seen_and_points_that_are_never_seen_together() -
     assert ak.fit_arm(enough, POINTS, "left", FRAME).n == 5
 
 
+def moved(change: Callable[[np.ndarray, Callable[[str], int]], object]) -> MarkerRecording:
+    position = np.array(RECORDING.position)
+    change(position, RECORDING.index)
+    return replace(RECORDING, position=position)
+
+
+def test_points_of_the_hand_in_one_line_do_not_tell_how_it_is_turned() -> None:
+    def in_line(position: np.ndarray, index: Callable[[str], int]) -> None:
+        wrist = position[:, [index("WRI_rad"), index("WRI_uln")]].mean(axis=1)
+        along = position[:, index("MCP2")] - wrist
+        position[:, index("MCP5")] = wrist + 0.5 * along
+
+    refused(RecordingError, "hand points not in line in 0", recording=moved(in_line))
+    one = moved(lambda p, index: p.__setitem__((7, index("MCP5")), p[7, index("MCP2")]))
+    assert 7 not in ak.fit_arm(one, POINTS, "left", FRAME).sample
+
+
+@pytest.mark.filterwarnings("error")
+def test_single_samples_with_points_on_one_another_do_no_harm() -> None:
+    def elbow_at_shoulder(position: np.ndarray, index: Callable[[str], int]) -> None:
+        position[7, [index("ELB_lat"), index("ELB_med")]] = position[7, index("SHO")]
+
+    def wrist_at_elbow(position: np.ndarray, index: Callable[[str], int]) -> None:
+        middle = position[7, [index("ELB_lat"), index("ELB_med")]].mean(axis=0)
+        position[7, [index("WRI_rad"), index("WRI_uln")]] = middle
+
+    for change in (elbow_at_shoulder, wrist_at_elbow):
+        fit = ak.fit_arm(moved(change), POINTS, "left", FRAME)
+        assert np.isfinite(fit.measured.q).all()
+        assert fit.lengths["upper_arm"].mean == pytest.approx(0.301, abs=1e-6)
+
+
+def test_positions_no_laboratory_has() -> None:
+    far = moved(lambda p, index: p.__setitem__((3, index("ELB_lat")), 1e20))
+    refused(RecordingError, r"'ELB_lat' is 1e\+20 m from the origin in sample 3", recording=far)
+
+
 def test_too_few_samples() -> None:
     few = replace(RECORDING, time=RECORDING.time[:4], position=RECORDING.position[:4])
-    refused(RecordingError, "4 samples .* a fit needs 5; the recording has 4", recording=few)
+    refused(RecordingError, "4 samples, a fit needs 5; the recording has 4", recording=few)
     refused(RecordingError, "0 samples from 3 to inf s", start=3.0)
     refused(RecordingError, "0 samples from 0.2 to 0.1 s", start=0.2, end=0.1)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from anatomy import WRIST
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from smooth_motions import path_of, smooth_angles
 from spherical_arms import ARMS, OF_THE_PAPERS, apart, pose_error, poses
@@ -88,6 +88,7 @@ def test_inside_the_bands_every_joint_is_inside_its_range_and_outside_not(name: 
 
 
 @settings(max_examples=25)
+@example(seed=2623, share=0.6593005894769988)  # an end 5e-7 beside the pole of the shoulder
 @given(seed=st.integers(0, 10_000), share=st.floats(0.2, 0.9))
 def test_bands_end_exactly_at_limits(seed: int, share: float) -> None:
     arm = narrowed(human(), seed, share)
@@ -99,7 +100,10 @@ def test_bands_end_exactly_at_limits(seed: int, share: float) -> None:
         ):
             inside = map_.clearance([psi], int(branch), [sample]).margin[0, 0]
             outside = map_.clearance([psi + outwards], int(branch), [sample]).margin[0, 0]
-            assert inside > -1e-11
+            # What is zero at an end is sin β times the sine of the angle missing, and it is so to rounding,
+            # some 1e-15: beside a pole an angle turns by 1/sin β for each unit in the last place of ψ.
+            beta = sines(map_, map_.postures(psi, int(branch)))[sample]
+            assert inside * beta > -1e-14
             assert whole or outside < 0
 
 

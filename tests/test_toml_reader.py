@@ -23,7 +23,19 @@ from armik_sym.arm.toml_reader import (
 from armik_sym.errors import ArmFileError, UnitError
 
 FILE = Path("some") / "arm.toml"
-NO_NUMBERS = [True, False, math.nan, math.inf, -math.inf, 10**400, "1", None, [1], datetime.date(2021, 7, 8)]
+NO_NUMBERS = [
+    True,
+    False,
+    math.nan,
+    math.inf,
+    -math.inf,
+    10**400,
+    1e101,
+    "1",
+    None,
+    [1],
+    datetime.date(2021, 7, 8),
+]
 
 
 def test_a_file_is_parsed(tmp_path):
@@ -65,6 +77,28 @@ def test_what_is_not_toml_is_refused(tmp_path, content):
     file.write_text(content)
     with pytest.raises(ArmFileError, match=r"half\.toml: not valid TOML: "):
         load_toml(file)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("x = " + 50_000 * "[", "brackets are nested too deeply"),
+        (20_000 * "a = {", "brackets are nested too deeply|not valid TOML"),
+        ("x = " + 50_000 * "9", "not valid TOML: "),
+        ("# fine\n" + 20_000 * "x." + "y = 1", "line 2 has more than 500 dots"),
+        ("#" + 200_000 * "a", "more than 100000 bytes"),
+    ],
+)
+def test_garbage_is_refused_at_once(tmp_path, content, words):
+    file = tmp_path / "huge.toml"
+    file.write_text(content)
+    with pytest.raises(ArmFileError, match=rf"huge\.toml: .*({words})"):
+        load_toml(file)
+
+
+def test_a_path_with_a_nul_byte_is_no_path():
+    with pytest.raises(ArmFileError, match="cannot be read"):
+        load_toml(Path("a\0b.toml"))
 
 
 def test_keys_nothing_reads_are_refused():
@@ -112,7 +146,7 @@ def test_an_unknown_unit_is_refused_with_those_that_exist(unit):
     assert "(allowed: rad, deg)" in str(caught.value)
 
 
-@given(st.integers(-(10**9), 10**9) | st.floats(allow_nan=False, allow_infinity=False))
+@given(st.integers(-(10**9), 10**9) | st.floats(-1e100, 1e100))
 def test_finite_numbers_pass_as_floats(value):
     result = number(FILE, "theta", value)
     assert type(result) is float
@@ -123,7 +157,7 @@ def test_finite_numbers_pass_as_floats(value):
 def test_booleans_nan_inf_and_everything_else_are_no_numbers(value):
     with pytest.raises(ArmFileError) as caught:
         number(FILE, "joint 2: theta", value)
-    assert str(caught.value) == f"{FILE}: joint 2: theta is {value!r}, expected a finite number"
+    assert str(caught.value) == f"{FILE}: joint 2: theta is {value!r}, expected a finite number up to 1e+100"
 
 
 @given(st.floats(-360, 360), st.floats(0, 360))

@@ -6,6 +6,7 @@ from armik_sym.arm.dh import DHConvention, DHLink, JointType
 from armik_sym.arm.load_arm import load_arm
 from armik_sym.arm.model import Arm
 from armik_sym.arm.range_of_motion import RangeOfMotion
+from armik_sym.arm.save_arm import save_arm
 from armik_sym.arm.segment_lengths import segment_lengths
 from armik_sym.arm.urdf import save_urdf
 
@@ -18,6 +19,7 @@ __all__ = [
     "RangeOfMotion",
     "catalog",
     "load_arm",
+    "save_arm",
     "save_urdf",
     "segment_lengths",
 ]

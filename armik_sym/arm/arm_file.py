@@ -21,7 +21,7 @@ from armik_sym.arm.toml_reader import (
     sub_table,
     unit_factor,
 )
-from armik_sym.errors import ArmFileError, ArmModelError, UnknownNameError
+from armik_sym.errors import ArmFileError, ArmModelError, UnitError, UnknownNameError
 
 _ARM_KEYS = (
     "name", "description", "convention", "angle_unit", "length_unit", "pointing_axis", "up", "outward",
@@ -84,6 +84,10 @@ def arm_from_table(path: Path, table: dict[str, Any]) -> Arm:
         raise
     except (ArmModelError, UnknownNameError) as error:
         raise ArmFileError(f"{path}: {error}") from error
+    except UnitError as error:
+        if str(error).startswith(f"{path}:"):
+            raise
+        raise UnitError(f"{path}: {error}") from error
 
 
 def _choice(path: Path, where: str, value: object, valid: list[str]) -> str:

@@ -52,7 +52,9 @@ def check_rigid(transform: ArrayLike, what: str) -> NDArray[np.float64]:
     if T.shape != (4, 4) or not np.all(np.isfinite(T)):
         raise ArmModelError(f"{what} transform has shape {T.shape}, expected a finite 4×4 matrix")
     R = T[:3, :3]
-    error = max(float(np.abs(R.T @ R - np.eye(3)).max()), abs(float(np.linalg.det(R)) - 1.0))
+    error = float(np.abs(R.T @ R - np.eye(3)).max())
+    if error <= _TOLERANCE:
+        error = max(error, abs(float(np.linalg.det(R)) - 1.0))
     if error > _TOLERANCE or np.abs(T[3] - [0, 0, 0, 1]).max() > 0:
         raise ArmModelError(
             f"{what} transform is not rigid: RᵀR differs from I, or det R from +1, by {error:.2g} "

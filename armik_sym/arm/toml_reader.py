@@ -19,7 +19,10 @@ ANGLE_UNITS: Mapping[str, float] = {"rad": 1.0, "deg": math.pi / 180.0}
 LENGTH_UNITS: Mapping[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 
 _FULL_TURN = 2 * math.pi
-_LARGEST = sys.float_info.max
+# Squares of larger numbers are infinite.
+_LARGEST = 1e100
+_LONGEST = 100_000
+_MOST_DOTS = 500
 
 
 def load_toml(path: Path) -> dict[str, Any]:
@@ -37,14 +40,35 @@ def load_toml(path: Path) -> dict[str, Any]:
     Source:
         TOML 1.0.
     """
+    text = _text(path)
+    # The parser takes minutes for a key of many thousand parts.
+    crowded = [i for i, line in enumerate(text.split("\n"), 1) if line.count(".") > _MOST_DOTS]
+    if crowded:
+        raise ArmFileError(
+            f"{path}: line {crowded[0]} has more than {_MOST_DOTS} dots, as no file of this package"
+        )
     try:
-        return dict(tomllib.loads(path.read_text(encoding="utf-8-sig")))
+        return dict(tomllib.loads(text))
+    except RecursionError:
+        raise ArmFileError(f"{path}: brackets are nested too deeply") from None
+    except ValueError as error:  # not TOML, or a whole number of many thousand digits
+        raise ArmFileError(f"{path}: not valid TOML: {error}") from None
+
+
+def _text(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            raw = file.read(_LONGEST + 1)
+        if len(raw) > _LONGEST:
+            raise ArmFileError(f"{path}: has more than {_LONGEST} bytes, as no file of this package")
+        # As files opened as text: all line ends are one.
+        return raw.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except FileNotFoundError:
         raise ArmFileError(f"{path}: no such file") from None
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
+        if isinstance(error, ArmFileError):
+            raise
         raise ArmFileError(f"{path}: cannot be read: {error}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise ArmFileError(f"{path}: not valid TOML: {error}") from None
 
 
 def check_keys(path: Path, where: str, table: Mapping[str, Any], allowed: Collection[str]) -> None:
@@ -138,7 +162,7 @@ def number(path: Path, where: str, value: object) -> float:
         None (bookkeeping).
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= _LARGEST:
-        raise ArmFileError(f"{path}: {where} is {value!r}, expected a finite number")
+        raise ArmFileError(f"{path}: {where} is {value!r}, expected a finite number up to {_LARGEST:g}")
     return float(value)
 
 

@@ -8,12 +8,25 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armik_sym.cli.arguments import backend_name
-from armik_sym.cli.compare_input import Recorded, from_angles, from_markers
 from armik_sym.cli.compare_output import say_all, write_comparisons
 from armik_sym.cli.console import say
 from armik_sym.cli.failures import NOT_OK, paragraph
 from armik_sym.cli.output_files import prepare_folder
 from armik_sym.cli.progress_bar import ProgressBar
+from armik_sym.cli.recorded import Recorded, kind_of, read_recorded
+from armik_sym.cli.recording_options import (
+    Base,
+    Begin,
+    Cutoff,
+    End,
+    Fill,
+    Frame,
+    Points,
+    RecordingOptions,
+    Rom,
+    Side,
+    Unit,
+)
 from armik_sym.errors import ArmModelError, OptionError, SolverError, UnknownNameError, UnreachablePathError
 
 if TYPE_CHECKING:
@@ -25,32 +38,25 @@ _DEFAULT = ("trajectory", "pro-isade", "swivel-constant")
 
 def compare(
     recording: Annotated[
-        Path, typer.Argument(help="Markers (trc, c3d, csv) or, with --arm, joint angles (csv, mot, sto).")
+        Path,
+        typer.Argument(help="Markers (trc, c3d, bvh, csv) or, with --arm, joint angles (csv, mot, sto)."),
     ],
-    points: Annotated[
-        Path | None,
-        typer.Option(
-            help="TOML file: which markers are shoulder, elbow, wrist, hand. Default: markers so named."
-        ),
-    ] = None,
-    side: Annotated[str | None, typer.Option(help="left or right, if --points does not say it.")] = None,
-    frame: Annotated[
-        str | None,
-        typer.Option(help="Axes of the recording, as 'x forward, y up', if --points does not say."),
-    ] = None,
-    base: Annotated[str, typer.Option(help="fixed: mean shoulder; moving: shoulder as recorded.")] = "fixed",
-    rom: Annotated[
-        str, typer.Option(help="model: range of motion of the arm; widened: where the person needs more.")
-    ] = "model",
-    cutoff: Annotated[float | None, typer.Option(help="Low-pass filter of the markers, in Hz.")] = None,
-    fill: Annotated[float | None, typer.Option(help="Longest gap of the markers to fill, in s.")] = None,
-    unit: Annotated[
-        str | None, typer.Option(help="Unit of lengths (m, cm, mm), for bvh files, which have none.")
-    ] = None,
-    begin: Annotated[float | None, typer.Option(help="First time to use, in s.")] = None,
-    end: Annotated[float | None, typer.Option(help="Last time to use, in s.")] = None,
+    points: Points = None,
+    side: Side = None,
+    frame: Frame = None,
+    base: Base = None,
+    rom: Rom = None,
+    cutoff: Cutoff = None,
+    fill: Fill = None,
+    unit: Unit = None,
+    begin: Begin = None,
+    end: End = None,
     arm: Annotated[
-        str | None, typer.Option(help="The recording holds joint angles of this arm (a name or a TOML file).")
+        str | None,
+        typer.Option(
+            help="A name or a TOML file. Joint angles: the arm they are of, needed. Markers: the kind of arm "
+            "that is fitted (default: human)."
+        ),
     ] = None,
     method: Annotated[
         list[str] | None,
@@ -77,15 +83,13 @@ def compare(
     chosen_backend = backend_name(backend)
     if tracking not in ("soft", "exact"):
         raise OptionError(f"--tracking is {tracking!r}: valid are soft, exact")
-    if arm is None:
-        asked = {"cutoff_hz": cutoff, "fill_gaps": fill, "start": begin, "end": end}
-        recorded = from_markers(recording, points, unit, rom, side=side, frame=frame, base=base, **asked)
-    else:
-        _only_for_markers(
-            {"--points": points, "--side": side, "--frame": frame, "--cutoff": cutoff,
-             "--fill": fill, "--unit": unit, "--begin": begin, "--end": end}
-        )  # fmt: skip
-        recorded = from_angles(recording, arm)
+    kind = kind_of(recording)
+    if kind == "path":
+        raise OptionError(
+            f"{recording} holds a hand path, which tells nothing of joints to compare with: use armik solve"
+        )
+    typed = RecordingOptions(points, side, frame, base, rom, cutoff, fill, unit, begin, end)
+    recorded = read_recorded(recording, kind, arm, typed)
     wanted = _methods(method, recorded)
     prepare_folder(out)
     found, failed = _all(recorded, wanted, tracking, seed, chosen_backend)
@@ -94,12 +98,6 @@ def compare(
     say("written: " + ", ".join(str(file) for file in written))
     if failed:
         raise typer.Exit(NOT_OK)
-
-
-def _only_for_markers(typed: dict[str, object]) -> None:
-    given = [name for name, value in typed.items() if value is not None]
-    if given:
-        raise OptionError(f"{given[0]} is about markers, but with --arm the recording holds joint angles")
 
 
 def _methods(typed: list[str] | None, recorded: Recorded) -> list[str]:

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from armik_sym.cli.compare_input import Recorded
 from armik_sym.cli.console import plain_table, say, show
+from armik_sym.cli.recorded import Recorded
 
 if TYPE_CHECKING:
     from armik_sym.comparison import Comparison
@@ -44,8 +44,10 @@ def say_all(recorded: Recorded, found: Mapping[str, Comparison], failed: Mapping
 def _remarks(recorded: Recorded, found: Mapping[str, Comparison], failed: Mapping[str, str]) -> list[str]:
     """What was done to the data, said once, and what is to be known of each method."""
     from armik_sym.comparison.constant_swivel import METHOD
+    from armik_sym.comparison.predicting import first_inside
 
-    shared = list(recorded.notes)
+    moved = first_inside(recorded.arm, recorded.measured.q[0])[1]
+    shared = [*recorded.notes, *([moved] if moved else [])]
     for comparison in found.values():
         shared += [note for note in comparison.notes if note not in shared]
     lines = [f"note: {note}" for note in shared]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from armik_sym.cli.console import say
+from armik_sym.cli.option_checks import number_or_word, only
 from armik_sym.errors import OptionError
 
 
@@ -24,7 +24,7 @@ def convert(
         Path,
         typer.Argument(
             metavar="OUT",
-            help="Markers: .trc, .c3d, .csv. Joint angles: .mot, .sto, .csv. Arm: .urdf.",
+            help="Markers: .trc, .c3d, .csv. Joint angles: .mot, .sto, .csv. Arm: .urdf, .toml.",
         ),
     ],
     unit: Annotated[
@@ -48,8 +48,8 @@ def convert(
     if source.exists() and target.exists() and source.samefile(target):
         raise OptionError(f"{target}: would be overwritten by itself: choose another name")
     typed = {"--unit": unit, "--joints": joints, "--fill": fill, "--cutoff": cutoff, "--nexus": nexus or None}
-    if target.suffix.lower() == ".urdf":
-        _only("an arm", typed, ())
+    if target.suffix.lower() in (".urdf", ".toml"):
+        only("an arm", typed)
         _arm(source, target)
         return
     from armik_sym.motion.file_kind import file_kind
@@ -58,24 +58,18 @@ def convert(
     if kind == "path":
         raise OptionError(f"{source}: is a hand path, which no other format holds: convert markers or angles")
     if kind == "markers":
-        _only("markers", typed, ("--unit", "--fill", "--cutoff", "--nexus"))
+        only("markers", typed, ("--unit", "--fill", "--cutoff", "--nexus"))
         _markers(source, target, unit, fill, cutoff, nexus)
     else:
-        _only("joint angles", typed, ("--joints",))
+        only("joint angles", typed, ("--joints",))
         _angles(source, target, None if joints is None else [name.strip() for name in joints.split(",")])
-
-
-def _only(what: str, typed: Mapping[str, object], allowed: tuple[str, ...]) -> None:
-    wrong = [name for name, value in typed.items() if value is not None and name not in allowed]
-    if wrong:
-        raise OptionError(f"{wrong[0]} does not go with {what}")
 
 
 def _arm(source: Path, target: Path) -> None:
     import armik_sym as ak
 
     arm = ak.load_arm(source)
-    ak.save_urdf(arm, target)
+    (ak.save_urdf if target.suffix.lower() == ".urdf" else ak.save_arm)(arm, target)
     say(f"{target}: arm {arm.name}, joints {', '.join(arm.joint_names)}")
 
 
@@ -84,7 +78,7 @@ def _markers(
 ) -> None:
     from armik_sym.motion import read_markers, write_markers
 
-    recording = read_markers(source, _number_or_word(unit))
+    recording = read_markers(source, number_or_word(unit))
     if fill is not None:
         recording = recording.filled("cubic", fill)
     if cutoff is not None:
@@ -107,12 +101,3 @@ def _angles(source: Path, target: Path, joints: list[str] | None) -> None:
     motion = read_motion(source, joints)
     write_motion(target, motion)
     say(f"{target}: {motion!r}")
-
-
-def _number_or_word(text: str | None) -> str | float | None:
-    if text is None:
-        return None
-    try:
-        return float(text)
-    except ValueError:
-        return text

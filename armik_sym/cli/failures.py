@@ -88,6 +88,10 @@ def as_typed(text: str) -> str:
     """
     text = re.sub(r"""\b(tracking|orientation|search)=["']([\w-]+)["']""", r"--\1 \2", text)
     text = re.sub(r"\bn_best=(\d+)", r"--n-best \1", text)
+    text = re.sub(r"read_markers\(path, unit='(\w+)'\)", r"--unit \1", text)
+    text = re.sub(r",? or hand_rotation=", "", text)
+    text = re.sub(r"\bfill_gaps=", "--fill", text)
+    text = re.sub(r"\b(side|frame)=,", r"--\1", text)
     text = re.sub(r"\bn_best\b", "--n-best", text)
     return re.sub(r"\b(max)_(speed|acceleration)\b", r"--\1-\2", text)
 

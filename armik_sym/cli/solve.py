@@ -1,4 +1,4 @@
-"""`armik solve`: a hand path in, a joint trajectory out."""
+"""`armik solve`: a hand path or a recording in, a joint trajectory out."""
 
 from __future__ import annotations
 
@@ -7,16 +7,42 @@ from typing import Annotated, Any
 
 import typer
 
-from armik_sym.cli.arguments import backend_name, only_for_trajectory, posture, rate, settings
+from armik_sym.cli.arguments import backend_name, only_for_trajectory, rate, settings
 from armik_sym.cli.console import say
 from armik_sym.cli.failures import NOT_OK
 from armik_sym.cli.output_files import prepare_folder, write_results
 from armik_sym.cli.progress_bar import ProgressBar
+from armik_sym.cli.recording_options import (
+    Base,
+    Begin,
+    Cutoff,
+    End,
+    Fill,
+    Frame,
+    Points,
+    RecordingOptions,
+    Rom,
+    Side,
+    Unit,
+)
+from armik_sym.cli.solve_input import first_posture, read_job
+from armik_sym.cli.solve_output import check_arm_file, write_fit
+from armik_sym.cli.solve_remarks import remarks, tracking_of
 
 
 def solve(
-    file: Annotated[Path, typer.Argument(help="Hand path: a CSV file with units in its header.")],
-    arm: Annotated[str, typer.Option(help="Arm: a name (ehmcs, human, alfaiz) or a TOML file.")] = "ehmcs",
+    file: Annotated[
+        Path,
+        typer.Argument(help="Hand path (csv), markers (trc, c3d, bvh, csv) or joint angles (csv, mot, sto)."),
+    ],
+    arm: Annotated[
+        str | None,
+        typer.Option(
+            help="Arm: a name (ehmcs, human, alfaiz) or a TOML file. Hand path: default ehmcs. Joint angles: "
+            "the arm they are of, needed. Markers: the kind of arm that is fitted to the person, with its "
+            "range of motion; default human."
+        ),
+    ] = None,
     method: Annotated[
         str,
         typer.Option(
@@ -30,14 +56,22 @@ def solve(
         ),
     ] = None,
     tracking: Annotated[
-        str | None, typer.Option(help="Trajectory only: exact, or soft for noisy or unreachable paths.")
+        str | None,
+        typer.Option(
+            help="Trajectory only: exact, or soft for noisy or unreachable paths. Default: exact; of markers "
+            "soft."
+        ),
     ] = None,
     max_speed: Annotated[float | None, typer.Option(help="Largest joint speed, in deg/s.")] = None,
     max_acceleration: Annotated[
         float | None, typer.Option(help="Trajectory only: largest joint acceleration, deg/s^2.")
     ] = None,
     start: Annotated[
-        str | None, typer.Option(help="Known first posture: degrees, separated by commas, one per joint.")
+        str | None,
+        typer.Option(
+            help="Known first posture: degrees, separated by commas, one per joint; or, with markers or "
+            "joint angles, the word recorded."
+        ),
     ] = None,
     search: Annotated[
         str | None,
@@ -53,6 +87,20 @@ def solve(
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help="Further option of the method (SI), repeatable."),
     ] = None,
+    points: Points = None,
+    side: Side = None,
+    frame: Frame = None,
+    base: Base = None,
+    rom: Rom = None,
+    cutoff: Cutoff = None,
+    fill: Fill = None,
+    unit: Unit = None,
+    begin: Begin = None,
+    end: End = None,
+    lengths: Annotated[
+        str | None,
+        typer.Option(help="Markers: segment lengths fitted to the person, or those of --arm: fitted or arm."),
+    ] = None,
     figures: Annotated[
         bool,
         typer.Option(help="Also draw joint angles, hand path and swivel map (png); takes longer."),
@@ -61,7 +109,10 @@ def solve(
     backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("armik_out"),
 ) -> None:
-    """Solve a hand path.
+    """Solve a hand path, given as it is, by markers of a person, or by joint angles of a known arm.
+
+    Markers: an arm is fitted to the person; NAME_arm.toml is that arm, NAME_fit.txt says how well it fits.
+    Joint angles: what the hand did follows from --arm, and is solved anew.
 
     Writes the joint angles (csv, npz), with --figures also figures (png), and prints what they are worth.
     With --n-best, NAME_solution_2.csv and so on hold the next best trajectories.
@@ -87,14 +138,17 @@ def solve(
         **rate("max_acceleration", max_acceleration),
         **{name: value for name, value in words.items() if value is not None},
     }
-    model = ak.load_arm(arm)
-    path = ak.read_path(file)
-    first = None if start is None else posture(start, model)
+    typed = RecordingOptions(points, side, frame, base, rom, cutoff, fill, unit, begin, end)
+    job = read_job(file, arm, lengths, typed)
+    first = first_posture(start, job)
+    chosen_tracking = tracking_of(job, method, options)
+    options |= {"tracking": chosen_tracking} if chosen_tracking else {}
     prepare_folder(out)
+    check_arm_file(job, arm, out, file.stem)
     with ProgressBar(file.name) as progress:
         solution = ak.solve(
-            model,
-            path,
+            job.arm,
+            job.path,
             method,
             start=first,
             seed=seed,
@@ -107,11 +161,18 @@ def solve(
         out,
         file.stem,
         data_formats=(".csv", ".npz"),
+        measured=None if job.recorded is None or job.own_lengths else job.recorded.measured,
         title=file.name,
         backend=chosen_backend,
         figures=figures,
     )
+    notes = remarks(job, start, chosen_tracking)
+    written += write_fit(job, out, file.stem, notes)
+    if job.from_markers and job.recorded is not None:
+        say(f"{job.recorded.report}\n")
     say(str(solution))
+    for note in notes:
+        say(f"  note            {note}")
     say("  written         " + ", ".join(str(name) for name in written))
     if not solution.ok:
         raise typer.Exit(NOT_OK)

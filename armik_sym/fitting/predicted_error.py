@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armik_sym.fitting.landmarks import Landmarks
 from armik_sym.fitting.recorded_angles import angles_on_branches
@@ -16,6 +15,8 @@ from armik_sym.swivel.spherical_arm import SphericalArm
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
+
+_TINY = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,6 +137,8 @@ def _perturbed(marks: Landmarks, noise: Mapping[str, float], turned_noise: float
         for axis in np.eye(3)
     ]
     if marks.turned is not None and np.isfinite(turned_noise) and turned_noise > 0:
+        from scipy.spatial.transform import Rotation  # slow to import, and few recordings have orientations
+
         for axis in np.eye(3):
             turn = Rotation.from_rotvec(turned_noise * axis).as_matrix()
             moved.append(replace(marks, turned=turn @ marks.turned))
@@ -143,4 +146,4 @@ def _perturbed(marks: Landmarks, noise: Mapping[str, float], turned_noise: float
 
 
 def _unit(vectors: Array) -> Array:
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), _TINY))

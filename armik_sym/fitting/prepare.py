@@ -11,7 +11,7 @@ from armik_sym.errors import RecordingError
 from armik_sym.fitting.given_hand import given_directions
 from armik_sym.fitting.landmarks import Landmarks
 from armik_sym.fitting.marker_map import MarkerMap
-from armik_sym.fitting.recording_checks import FEWEST, check_hand_told, complete
+from armik_sym.fitting.recording_checks import FEWEST, check_hand_told, check_near, complete
 from armik_sym.motion.marker_recording import MarkerRecording
 
 Array = NDArray[np.float64]
@@ -107,6 +107,7 @@ def prepare(
     # A marker may be named twice, with and without its prefix.
     used_names = dict.fromkeys(recording.names[recording.index(name)] for name in markers.markers)
     cut, kept = trimmed(recording.selected(tuple(used_names)), todo)
+    check_near(cut)
     turned = None if turned is None else turned[kept]
     raw = landmarks(cut, markers, to_base, turned)
     better, said = processed(cut, todo)
@@ -139,9 +140,10 @@ def trimmed(recording: MarkerRecording, todo: Processing) -> tuple[MarkerRecordi
     high = np.inf if todo.end is None else todo.end
     kept = np.flatnonzero((t >= low) & (t <= high))
     if len(kept) < FEWEST:
+        chosen = "" if len(kept) == len(t) else f" from {low:g} to {high:g} s"
         raise RecordingError(
-            f"{_name(recording)}: {len(kept)} samples from {low:g} to {high:g} s, a fit needs {FEWEST}; the "
-            f"recording has {recording.n} from {t[0]:g} to {t[-1]:g} s"
+            f"{_name(recording)}: {len(kept)} samples{chosen}, a fit needs {FEWEST}; the recording has "
+            f"{recording.n} from {t[0]:g} to {t[-1]:g} s"
         )
     return replace(recording, time=t[kept], position=recording.position[kept]), kept
 

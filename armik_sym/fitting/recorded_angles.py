@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,9 @@ _BRANCHES = tuple((e, s, w) for e in (1, -1) for s in (1, -1) for w in (1, -1))
 # Branches are parallel but where they touch: steps must cost so much that a jump between them never pays,
 # even if the joints are outside their range of motion for thousands of samples.
 _STEP_WEIGHT = 1e4
+# A step this large is no movement from sample to sample, in [rad]: the arm is (all but) straight and noise
+# turns the elbow about the line from shoulder to wrist. There no sequence is continuous.
+_NO_STEP = np.deg2rad(60.0)
 # With the elbow this near to the line from shoulder to wrist its direction says nothing, in [m].
 _ON_LINE = 1e-3
 
@@ -50,7 +54,8 @@ def recorded_angles(
     The elbow of the arm is on its circle about the line from shoulder to wrist; of this circle the point
     nearest in direction to the recorded elbow is taken: ψ = 0 with the recorded elbow as reference. Of the
     eight branches the one sequence is taken that never jumps and is outside the range of motion least
-    (shortest path); angles go on over ±180°.
+    (shortest path); angles go on over ±180°. Where noise turns the elbow of a straight arm by more than 60°
+    from one sample to the next, the angles after it are again those that are outside least.
 
     Args:
         spherical: The arm.
@@ -121,7 +126,7 @@ def _least_way(spherical: SphericalArm, every: Array) -> Indices:
     best, came_from = price[0], np.zeros(every.shape[:2], dtype=np.int64)
     for i in range(1, len(every)):
         step = without_turns(every[i][None] - every[i - 1][:, None])
-        way = best[:, None] + _STEP_WEIGHT * np.sum(step**2, axis=2)
+        way = best[:, None] + _STEP_WEIGHT * np.sum(np.minimum(step**2, _NO_STEP**2), axis=2)
         came_from[i] = np.argmin(way, axis=0)
         best = way[came_from[i], np.arange(len(best))] + price[i]
     branch = np.empty(len(every), dtype=np.int64)
@@ -132,11 +137,17 @@ def _least_way(spherical: SphericalArm, every: Array) -> Indices:
 
 
 def _inside_by_turns(spherical: SphericalArm, q: Array) -> Array:
-    """Whole turns for each joint, the same over all samples, that leave its range of motion least."""
+    """Whole turns for each joint, the same from break to break, that leave its range of motion least."""
     rom, turns = spherical.arm.rom, np.arange(-2, 3) * TURN
-    shifted = q[:, :, None] + turns
-    outside = np.maximum(shifted - rom.upper[:, None], 0) + np.maximum(rom.lower[:, None] - shifted, 0)
-    price = outside.sum(axis=0)
-    # Of equal prices the least turns.
-    chosen = np.argmin(price + 1e-9 * np.abs(turns), axis=1)
-    return np.asarray(q + turns[chosen])
+    out = q.copy()
+    for joint in range(q.shape[1]):
+        breaks = np.flatnonzero(np.abs(np.diff(q[:, joint])) > _NO_STEP) + 1
+        so_far = 0.0
+        for first, end in pairwise([0, *breaks.tolist(), len(q)]):
+            shifted = q[first:end, joint, None] + so_far + turns
+            outside = np.maximum(shifted - rom.upper[joint], 0) + np.maximum(rom.lower[joint] - shifted, 0)
+            # Of equal prices the least turns.
+            chosen = int(np.argmin(outside.sum(axis=0) + 1e-9 * np.abs(turns)))
+            so_far += turns[chosen]
+            out[first:end, joint] = shifted[:, chosen]
+    return out

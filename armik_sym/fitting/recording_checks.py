@@ -8,16 +8,20 @@ from numpy.typing import NDArray
 from armik_sym.errors import OptionError, RecordingError, UnitError
 from armik_sym.fitting.landmarks import Landmarks, tells_hand_turned
 from armik_sym.fitting.marker_map import MarkerMap
+from armik_sym.motion.marker_recording import MarkerRecording
 
 # Fewer complete samples than this tell neither spread nor noise.
 FEWEST = 5
+_ROUNDING = 1e-6
+# Farther from the origin than this is no laboratory, in [m].
+_FARTHEST = 1e9
 # Segments of people, in [m]: from a small child to more than the tallest adult.
 _PLAUSIBLE = {"upper_arm": (0.06, 0.6), "forearm": (0.06, 0.6), "hand": (0.015, 0.35)}
 _UNITS = ((1e-3, "millimetres"), (1e-2, "centimetres"), (0.0254, "inches"), (1e3, "kilometres"))
 
 
 def complete(marks: Landmarks, source: str) -> NDArray[np.bool_]:
-    """Samples in which all points were seen.
+    """Samples in which all points were seen and tell how the hand is turned.
 
     Args:
         marks: The points.
@@ -35,6 +39,14 @@ def complete(marks: Landmarks, source: str) -> NDArray[np.bool_]:
     seen = {name: np.asarray(np.isfinite(values[:, 0])) for name, values in marks.points.items()}
     if marks.turned is not None:
         seen["hand_rotation"] = np.asarray(np.isfinite(marks.turned).all(axis=(1, 2)))
+    else:
+        # Points of the hand in one line do not tell how it is turned.
+        size = np.linalg.norm(marks.hand_directions(), axis=1)
+        if (size[:, 0] > 0.0).any():
+            seen["hand points not in line"] = np.asarray((np.abs(size - 1.0) < _ROUNDING).all(axis=1))
+    apart = np.linalg.norm(marks.elbow - marks.shoulder, axis=1)
+    if (apart > _ROUNDING).any():
+        seen["elbow away from the shoulder"] = np.asarray(apart > _ROUNDING)
     every = np.asarray(np.stack(list(seen.values())).all(axis=0))
     if every.sum() < FEWEST:
         counts = ", ".join(f"{name} in {int(mask.sum())}" for name, mask in seen.items())
@@ -43,6 +55,27 @@ def complete(marks: Landmarks, source: str) -> NDArray[np.bool_]:
             f"({counts}): fill short gaps with fill_gaps=, or choose other markers"
         )
     return every
+
+
+def check_near(recording: MarkerRecording) -> None:
+    """Refuse positions no laboratory has.
+
+    Args:
+        recording: The recording.
+
+    Raises:
+        RecordingError: If a coordinate exceeds 10⁹ m; names sample and marker.
+
+    Source:
+        None (this package).
+    """
+    far = np.argwhere(np.abs(recording.position) > _FARTHEST)
+    if far.size:
+        i, j, k = far[0]
+        raise RecordingError(
+            f"{recording.source or 'the recording'}: marker {recording.names[j]!r} is "
+            f"{recording.position[i, j, k]:g} m from the origin in sample {i}: the file is damaged there"
+        )
 
 
 def check_plausible(lengths: dict[str, float], source: str) -> None:

@@ -13,6 +13,7 @@ _MOST_STEPS = 60
 # The search ends when a step lowers the sum of squares by less than this share, or it is rounding.
 _ENOUGH = 1e-10
 _ROUNDING_M2 = 1e-28
+_TINY = 1e-12
 # Singular values of the normal matrix below this share of the largest are directions nothing depends on
 # (the base of an arm that does not move); they keep their starting values.
 _UNSEEN = 1e-8
@@ -56,7 +57,8 @@ def best_rigid_chain(points: Array, base: Array, free_base: bool) -> RigidChain:
     start = np.broadcast_to(base, (n, 3))
     segments = np.diff(np.concatenate([start[:, None], points], axis=1), axis=1)
     sizes = np.linalg.norm(segments, axis=2)
-    u = segments / np.maximum(sizes, 1e-12)[:, :, None]
+    # A segment without a length has any direction.
+    u = np.where(sizes[:, :, None] > _TINY, segments / np.maximum(sizes, _TINY)[:, :, None], [1.0, 0.0, 0.0])
     lengths, c = sizes.mean(axis=0), np.array(base, dtype=np.float64)
     damping = 1e-4
     residual = points - _ends(c, lengths, u)

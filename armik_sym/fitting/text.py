@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 # From this share of samples outside the range of motion on, side or axes are more likely wrong than the arm.
 _SUSPICIOUS = 0.5
 _PER_LINE = 4
+# An angle that may be anything has an RMS error of 360°/√12; beyond this one no more can be said.
+_ANY = 60.0
 
 
 def summary(fit: FittedArm) -> str:
@@ -78,7 +80,7 @@ def _misfits(of: Mapping[str, Misfit]) -> str:
 def _angles(fit: FittedArm) -> list[str]:
     degrees = np.rad2deg(fit.quality.angles.total)
     expected = [
-        f"{name.replace('_', ' ')} {angle:.2f}°"
+        f"{name.replace('_', ' ')} {f'> {_ANY:g}°' if angle > _ANY else f'{angle:.2f}°'}"
         for name, angle in zip(fit.arm.joint_names, degrees, strict=True)
     ]
     lines = ["  expected error of the angles (noise and misfit; skin that slides along is not in it):"]

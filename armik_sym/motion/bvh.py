@@ -15,7 +15,7 @@ from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.promised_rows import compare_rows, count_of, joined, warn
 from armik_sym.motion.table_checks import check_table_names
 from armik_sym.motion.text_file import write_lines
-from armik_sym.motion.units import Unit, is_number
+from armik_sym.motion.units import Unit, is_number, is_rate
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ def read_bvh(path: str | os.PathLike[str]) -> BvhMotion:
             raise lines.error("starts the motion, but no joint has channels")
         frames = count_of(file, lines.number, "Frames", _field(lines, "Frames:"))
         said = _field(lines, "Frame Time:")
-        if not is_number(said) or float(said) <= 0:
+        if not is_rate(said):
             raise lines.error(f"has the frame time {said[:40]!r}, expected a positive number of seconds")
         rows = read_rows(lines, names, [Unit()] * len(names), None, gaps_from=len(names))
         if not len(rows.values):
@@ -83,6 +83,10 @@ def write_bvh(path: str | os.PathLike[str], motion: BvhMotion) -> None:
     """
     file = Path(path)
     check_table_names(file, motion.names, forbidden=" \t{}", what="joint")
+    # Any white space inside a name is read as one blank.
+    spaced = [name for name in motion.names if name.split() != [name]]
+    if spaced:
+        raise MotionFileError(f"{file}: joint {spaced[0]!r} cannot be written in this form: it has blanks")
     lines = ["HIERARCHY"]
     open_joints: list[int] = []
     for index, joint in enumerate(motion.joints):

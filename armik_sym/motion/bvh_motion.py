@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from armik_sym.errors import OptionError, RecordingError, ShapeError, UnknownNameError
 from armik_sym.motion.checks import check_finite, check_shape, float_copy
 from armik_sym.motion.marker_recording import MarkerRecording
-from armik_sym.motion.units import length_unit
+from armik_sym.motion.units import is_rate, length_unit
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -84,7 +84,7 @@ class BvhMotion:
             if joint.name in seen:
                 raise RecordingError(f"joint {joint.name!r} occurs twice: every joint needs its own name")
             seen.add(joint.name)
-        if not (math.isfinite(self.frame_time) and self.frame_time > 0):
+        if not is_rate(repr(float(self.frame_time))):
             raise RecordingError(f"frame_time is {self.frame_time!r} s, expected a positive number")
         values = float_copy(self.values, "values")
         check_shape(values, "values", (None, self.channel_count), f"(n, {self.channel_count})")

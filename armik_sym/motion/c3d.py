@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 
 _LONGEST_NAME = 127
 _WORDS = 2
+# Normal 32-bit numbers.
+_SMALLEST, _LARGEST = 1.2e-38, 3.4e38
 
 
 def read_c3d(path: str | os.PathLike[str]) -> MarkerRecording:
@@ -77,7 +79,7 @@ def write_c3d(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
     """
     file, exponent = Path(path), length_unit(unit).shift
     check_table_names(file, recording.names, forbidden="\0")
-    long = [name for name in recording.names if len(name.encode()) > _LONGEST_NAME]
+    long = [name for name in recording.names if len(name.encode(errors="replace")) > _LONGEST_NAME]
     if long or len(recording.names) > 255:
         said = f"the name {long[0]!r} is too long" if long else f"{len(recording.names)} markers are too many"
         raise MotionFileError(f"{file}: {said}: at most 255 markers with {_LONGEST_NAME} bytes of name each")
@@ -86,6 +88,12 @@ def write_c3d(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
         raise MotionFileError(f"{file}: the frames {frames[0]} to {frames[-1]} have steps or start before 1")
     if not file.parent.is_dir():
         raise MotionFileError(f"{file}: cannot be written: there is no folder {file.parent}")
+    missing = np.isnan(recording.position[..., 0])
+    farthest = float(np.max(np.abs(recording.position[~missing]), initial=0.0)) * 10.0**-exponent
+    if not (_SMALLEST <= rate <= _LARGEST and farthest <= _LARGEST):
+        raise MotionFileError(
+            f"{file}: the rate {rate:g} Hz or the coordinate {farthest:g} {unit} is no 32-bit number"
+        )
     content = _ezc3d().c3d()
     point = content["parameters"]["POINT"]
     point["RATE"]["value"], point["UNITS"]["value"] = [rate], [unit]
@@ -97,7 +105,6 @@ def write_c3d(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
         # Added as floating-point numbers; the format wants two words of 16 bits.
         kept = content["parameters"]["TRIAL"][f"ACTUAL_{word}_FIELD"]
         kept["type"], kept["value"] = _WORDS, np.array(signed)
-    missing = np.isnan(recording.position[..., 0])
     values = np.ones((4, len(recording.names), recording.n))
     values[:3] = np.moveaxis(recording.position * 10.0**-exponent, (0, 1, 2), (2, 1, 0))
     content["data"]["points"] = values

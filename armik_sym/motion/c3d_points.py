@@ -44,7 +44,9 @@ def read_points(path: Path, header: C3DHeader) -> Array:
         raise MotionFileError(f"{path}: cannot be read: {error}") from None
     part = np.array(every[:, : width * words])
     del every
-    numbers = from_dec(part) if words == 2 else part.astype(np.float64)
+    # Bytes that are no number (signalling NaN) are gaps like any other NaN.
+    with np.errstate(invalid="ignore"):
+        numbers = from_dec(part) if words == 2 else part.astype(np.float64)
     points = numbers.reshape(header.frames, header.points, 4)
     position = points[..., :3] if real else points[..., :3] * header.scale
     missing = (points[..., 3] < 0) | ~np.isfinite(position).all(axis=2)

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-import numpy as np
-
-from armik_sym.errors import MotionFileError, UnitError
-from armik_sym.motion.unit_table import UnitTable
-from armik_sym.motion.units import NO_UNITS, Unit
+from armik_sym.errors import UnitError
+from armik_sym.motion.unit_table import OpenTable
+from armik_sym.motion.units import NO_UNITS, Unit, is_number
 
 Units = Mapping[str, Unit]
 
 
 def column_units(
-    table: UnitTable, allowed: Mapping[str, Units], guess: Callable[[UnitTable, str], str]
+    table: OpenTable, allowed: Mapping[str, Units], guess: Callable[[OpenTable, str], str]
 ) -> dict[str, Unit]:
     """The declared unit of every column.
 
@@ -53,10 +51,10 @@ def column_units(
 
 
 def _how_to_declare(
-    table: UnitTable,
+    table: OpenTable,
     missing: list[str],
     allowed: Mapping[str, Units],
-    guess: Callable[[UnitTable, str], str],
+    guess: Callable[[OpenTable, str], str],
 ) -> str:
     headings = []
     for name, column in table.columns.items():
@@ -74,26 +72,25 @@ def _how_to_declare(
     )
 
 
-def largest(table: UnitTable, name: str) -> float:
-    """Largest magnitude in a column as written, 0 if its cells are not numbers.
+def largest(table: OpenTable, name: str) -> float:
+    """Largest magnitude in the first rows of a column as written; cells that are no numbers do not count.
 
     Args:
-        table: The table.
+        table: The table, whose rows cannot be read any more afterwards.
         name: The column.
 
     Returns:
-        max |value| in the unit of the file.
+        max |value| in the unit of the file, 0 if there is none.
 
     Source:
         None (bookkeeping).
     """
-    try:
-        return float(np.abs(table.values(name, Unit())).max())
-    except MotionFileError:
-        return 0.0
+    index = table.columns[name].index
+    cells = (row[index] for row in table.preview)
+    return max((abs(float(cell)) for cell in cells if is_number(cell)), default=0.0)
 
 
-def likely_time_unit(table: UnitTable, name: str) -> str:
+def likely_time_unit(table: OpenTable, name: str) -> str:
     """What a time column without a unit looks like: steps of 1 and more are milliseconds.
 
     Args:
@@ -106,4 +103,4 @@ def likely_time_unit(table: UnitTable, name: str) -> str:
     Source:
         None (rule of thumb: recordings have 1 to 1000 samples per second).
     """
-    return "ms" if largest(table, name) >= len(table.rows) else "s"
+    return "ms" if largest(table, name) >= len(table.preview) else "s"

@@ -48,9 +48,7 @@ def file_kind(path: str | os.PathLike[str]) -> Kind:
             f"{', '.join((*_BY_ENDING, '.csv'))}"
         )
     with NumberedLines(file) as lines:
-        line = lines.next_content()
-        while line is not None and line.lstrip().startswith("#"):
-            line = lines.next_content()
+        line = lines.next_uncommented()
         if line is None:
             raise MotionFileError(f"{file}: no header row such as 'time [s],x [mm],…'")
         if first_cell(line) in SECTIONS:
@@ -58,4 +56,5 @@ def file_kind(path: str | os.PathLike[str]) -> Kind:
         names = list(header_columns(file, lines.number, line))
     if is_marker_header(names):
         return "markers"
-    return "path" if {"x", "y", "z"} <= set(names) else "motion"
+    # One that lacks a coordinate is a path that says so when it is read.
+    return "path" if {"x", "y", "z"} & set(names) else "motion"

@@ -8,13 +8,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from armik_sym.errors import HandPathError, MotionFileError, ShapeError, UnitError, UnknownNameError
 from armik_sym.motion.declared_units import column_units, largest, likely_time_unit
 from armik_sym.motion.joint_motion import JointMotion, checked_motion, checked_names
-from armik_sym.motion.unit_table import UnitTable, read_table, write_table
+from armik_sym.motion.unit_table import OpenTable, open_table, write_table
 from armik_sym.motion.units import ANGLE_UNITS, LENGTH_UNITS, TIME_UNITS
+
+Array = NDArray[np.float64]
 
 _TIME = "time"
 _TWO_TURNS = 4 * math.pi
@@ -40,17 +42,17 @@ def read_joint_angles(path: str | os.PathLike[str]) -> JointMotion:
     Source:
         None (file format of this package, see `docs/files.md`).
     """
-    table = read_table(Path(path))
-    joints = _joint_columns(table)
-    allowed = {_TIME: TIME_UNITS, **dict.fromkeys(joints, ANGLE_UNITS)}
-    units = column_units(table, allowed, _likely_unit)
-    time = table.values(_TIME, units[_TIME])
-    q = np.column_stack([table.values(name, units[name]) for name in joints])
-    _check_radians(table, joints)
+    file = Path(path)
+    with open_table(file) as opened:
+        joints = _joint_columns(opened)
+        allowed = {_TIME: TIME_UNITS, **dict.fromkeys(joints, ANGLE_UNITS)}
+        table = opened.read(column_units(opened, allowed, _likely_unit))
+    q = table.of(joints)
+    _check_radians(opened, joints, q)
     try:
-        return JointMotion(*checked_motion(time, q, table.place), joints)
+        return JointMotion(*checked_motion(table.of((_TIME,))[:, 0], q, table.place), joints)
     except (HandPathError, ShapeError) as error:
-        raise type(error)(f"{table.path}: {error}") from None
+        raise type(error)(f"{file}: {error}") from None
 
 
 def write_joint_angles(
@@ -85,12 +87,14 @@ def write_joint_angles(
     if unit not in ANGLE_UNITS:
         raise UnknownNameError("angle unit", unit, ANGLE_UNITS)
     motion = JointMotion(np.asarray(time), np.asarray(q), tuple(joint_names))
+    if _TIME in motion.joint_names:
+        raise HandPathError("joint 'time' cannot be written: the column of the times is called so")
     columns = {_TIME: ("s", TIME_UNITS["s"])}
     columns |= dict.fromkeys(motion.joint_names, (unit, ANGLE_UNITS[unit]))
     write_table(Path(path), columns, np.column_stack([motion.time, motion.q]), comment)
 
 
-def _joint_columns(table: UnitTable) -> tuple[str, ...]:
+def _joint_columns(table: OpenTable) -> tuple[str, ...]:
     where = f"{table.path}: line {table.header_line}"
     joints = tuple(name for name in table.columns if name != _TIME)
     if _TIME not in table.columns or not joints:
@@ -110,9 +114,8 @@ def _joint_columns(table: UnitTable) -> tuple[str, ...]:
         raise MotionFileError(f"{where}: {error}") from None
 
 
-def _check_radians(table: UnitTable, joints: tuple[str, ...]) -> None:
-    for name in joints:
-        value = largest(table, name)
+def _check_radians(table: OpenTable, joints: tuple[str, ...], q: Array) -> None:
+    for name, value in zip(joints, np.abs(q).max(axis=0).tolist(), strict=True):
         if table.columns[name].unit == "rad" and value > _TWO_TURNS:
             raise UnitError(
                 f"{table.path}: column {name!r} reaches {value:g} rad, more than two full turns: if these "
@@ -120,7 +123,7 @@ def _check_radians(table: UnitTable, joints: tuple[str, ...]) -> None:
             )
 
 
-def _likely_unit(table: UnitTable, name: str) -> str:
+def _likely_unit(table: OpenTable, name: str) -> str:
     if name == _TIME:
         return likely_time_unit(table, name)
     joints = [joint for joint in table.columns if joint != _TIME]

@@ -17,7 +17,7 @@ from armik_sym.motion.promised_rows import joined
 from armik_sym.motion.table_checks import agreed_rate, check_table_names, check_times, errors_of_file
 from armik_sym.motion.table_header import Column, header_columns
 from armik_sym.motion.text_file import write_lines
-from armik_sym.motion.units import LENGTH_UNITS, TIME_UNITS, Unit, from_si, is_number, length_unit
+from armik_sym.motion.units import LENGTH_UNITS, TIME_UNITS, Unit, from_si, is_rate, length_unit
 
 _AXES = ("x", "y", "z")
 _RATE, _NOTE = "rate:", "note:"
@@ -44,28 +44,24 @@ def read_marker_csv(path: str | os.PathLike[str]) -> MarkerRecording:
     """
     file = Path(path)
     with NumberedLines(file) as lines:
-        said = {_RATE: "", _NOTE: ""}
-        while (heading := lines.next_content()) is not None and heading.lstrip().startswith("#"):
-            text = heading.strip().lstrip("#").strip()
-            for key in said:
-                if text.lower().startswith(key):
-                    said[key] = said[key] or text[len(key) :].strip()
+        heading = lines.next_uncommented()
         if heading is None:
             raise MotionFileError(f"{file}: no header row such as 'time [s],RELB.x [mm],…'")
         at = lines.number
         columns = header_columns(file, at, heading)
         names, units = _markers(file, at, columns), _units(file, at, columns)
-        rows = read_rows(lines, list(columns), units, ",", gaps_from=1)
+        rows = read_rows(lines, list(columns), units, ",", gaps_from=1, comments=True)
+        rate_said, note = lines.said(_RATE), lines.said(_NOTE)
     if not len(rows.values):
         raise MotionFileError(f"{file}: the header on line {at} is followed by no samples")
     time = rows.values[:, 0]
     check_times(file, time, rows.lines)
-    if said[_RATE] and not (is_number(said[_RATE]) and float(said[_RATE]) > 0):
-        raise MotionFileError(f"{file}: the rate is {said[_RATE]!r}, expected a positive number [Hz]")
-    rate, odd = agreed_rate(file, float(said[_RATE]) if said[_RATE] else None, time)
+    if rate_said and not is_rate(rate_said):
+        raise MotionFileError(f"{file}: the rate is {rate_said[:40]!r}, expected a positive number [Hz]")
+    rate, odd = agreed_rate(file, float(rate_said) if rate_said else None, time)
     position = rows.values[:, 1:].reshape(len(time), len(names), 3)
     with errors_of_file(file):
-        return MarkerRecording(time, names, position, joined(said[_NOTE], odd), file.name, rate)
+        return MarkerRecording(time, names, position, joined(note, odd), file.name, rate)
 
 
 def write_marker_csv(path: str | os.PathLike[str], recording: MarkerRecording, unit: str = "mm") -> None:

@@ -17,6 +17,9 @@ from armik_sym.motion.table_checks import contradicting_rate
 
 Array = NDArray[np.float64]
 
+# In any unit a number that can be written, and whose square is one, in [m].
+_FARTHEST = 1e100
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MarkerRecording:
@@ -34,8 +37,8 @@ class MarkerRecording:
 
     Raises:
         ShapeError: If shapes or the number of names do not fit.
-        RecordingError: If time does not increase, a value is infinite, a name is empty or occurs twice, or
-            the declared rate contradicts the times by more than 1 %.
+        RecordingError: If time does not increase, a value is infinite (or beyond 10¹⁰⁰ m), a name is
+            empty or occurs twice, or the declared rate contradicts the times by more than 1 %.
 
     Source:
         None (definition).
@@ -231,9 +234,11 @@ def _checked_values(time: Array, position: Array, m: int) -> tuple[Array, Array]
     check_shape(p, "position", (n, m, 3), f"({n}, {m}, 3): {n} times, {m} names, 3 coordinates")
     check_finite(t, "time")
     check_increasing(t)
-    if np.isinf(p).any():
-        i, j, _ = np.argwhere(np.isinf(p))[0]
-        raise RecordingError(f"position of sample {i}, marker {j} is infinite: a missing marker is NaN")
+    far = np.argwhere(np.abs(p) > _FARTHEST)
+    if far.size:
+        i, j, k = far[0]
+        said = "is infinite" if np.isinf(p[i, j, k]) else f"has the coordinate {p[i, j, k]:g} m"
+        raise RecordingError(f"position of sample {i}, marker {j} {said}: a missing marker is NaN")
     p = np.where(np.isnan(p).any(axis=2, keepdims=True), np.nan, p)
     p.flags.writeable = False
     return t, p

@@ -16,7 +16,7 @@ from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.promised_rows import joined
 from armik_sym.motion.table_checks import agreed_rate, check_table_names, errors_of_file
 from armik_sym.motion.text_file import write_lines
-from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_number, length_unit
+from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_rate, length_unit
 
 Array = NDArray[np.float64]
 
@@ -134,6 +134,8 @@ def frame_numbers(file: Path, recording: MarkerRecording) -> tuple[list[int], fl
     rate = recording.rate
     if math.isnan(rate):
         raise MotionFileError(f"{file}: a single sample without declared rate has no frame rate to write")
+    if not is_rate(repr(float(rate))):
+        raise MotionFileError(f"{file}: a rate of {rate:g} Hz cannot be written: times are in seconds")
     exact = 1.0 + recording.time * rate
     frames = np.round(exact)
     # Times in files are rounded, often to milliseconds or less.
@@ -170,7 +172,7 @@ def _to_section(lines: NumberedLines) -> list[str]:
 
 def _rate(lines: NumberedLines) -> float:
     text = (lines.next_line() or "").strip(", \t")
-    if not is_number(text) or float(text) <= 0:
+    if not is_rate(text):
         raise lines.error(f"is {text[:40]!r}, expected the frame rate [Hz], a positive number")
     return float(text)
 

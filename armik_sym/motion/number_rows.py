@@ -76,6 +76,7 @@ def read_rows(
     delimiter: str | None,
     gaps_from: int,
     stop_at_blank: bool = False,
+    comments: bool = False,
 ) -> NumberRows:
     """Read rows of numbers up to the end of the file.
 
@@ -86,6 +87,7 @@ def read_rows(
         delimiter: What separates cells; None for any white space.
         gaps_from: First column that may have gaps (empty cells, or nan).
         stop_at_blank: Whether a blank line below the first row ends the table.
+        comments: Whether lines that start with '#' are comments.
 
     Returns:
         The rows; none at all gives zero rows.
@@ -98,7 +100,13 @@ def read_rows(
     """
     blanks = delimiter or ""
     numbers, at = array("d"), array("q")
-    while (line := lines.next_line() if stop_at_blank and at else lines.next_content(blanks)) is not None:
+
+    def next_row() -> str | None:
+        if comments:
+            return lines.next_uncommented()
+        return lines.next_line() if stop_at_blank and at else lines.next_content(blanks)
+
+    while (line := next_row()) is not None:
         if not line.strip(f"{blanks} \t"):
             break
         cells = split(line, delimiter)
@@ -107,7 +115,7 @@ def read_rows(
         at.append(lines.number)
         for column, cell in enumerate(cells):
             if cell and is_number(cell):
-                numbers.append(_value(cell, units[column]))
+                numbers.append(to_si(cell, units[column]))
             elif column >= gaps_from and cell.lower() in _GAPS:
                 numbers.append(np.nan)
             else:
@@ -115,13 +123,6 @@ def read_rows(
     values = np.frombuffer(numbers, dtype=np.float64) if numbers else np.empty(0)
     rows = np.frombuffer(at, dtype=np.int64) if at else np.empty(0, dtype=np.int64)
     return NumberRows(values.reshape(len(at), len(names)).copy(), rows.copy())
-
-
-def _value(cell: str, unit: Unit) -> float:
-    """The number in SI, rounded once, as `to_si` but faster for plain decimals."""
-    if not unit.shift or "e" in cell or "E" in cell:
-        return to_si(cell, unit)
-    return float(f"{cell}e{unit.shift}") * unit.factor
 
 
 def _fitting(

@@ -13,6 +13,9 @@ from armik_sym.motion.text_file import unreadable
 
 LONGEST_LINE = 1_000_000
 MOST_BLANK_LINES = 10_000
+_MOST_COMMENTS_KEPT = 1000
+# Byte-order marks, as lone surrogates.
+_UTF16_MARKS = ("\udcff\udcfe", "\udcfe\udcff")
 _NOT_UTF8 = re.compile("[\udc80-\udcff]")
 
 
@@ -24,6 +27,7 @@ class NumberedLines:
     Attributes:
         path: The file.
         number: Number of the line read last, from 1.
+        comments: What the first comments say that `next_uncommented` passed over.
 
     Raises:
         MotionFileError: If the file is missing, a folder or unreadable.
@@ -35,6 +39,7 @@ class NumberedLines:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.number = 0
+        self.comments: list[str] = []
         self._file = _open(path)
 
     def __enter__(self) -> NumberedLines:
@@ -68,6 +73,8 @@ class NumberedLines:
         if not line:
             return None
         self.number += 1
+        if self.number == 1 and line.startswith(_UTF16_MARKS):
+            raise self.error("starts like UTF-16 text: save it as UTF-8")
         if "\0" in line:
             raise self.error("holds a NUL byte: this is a binary or damaged file, expected UTF-8 text")
         if len(line) >= LONGEST_LINE:
@@ -97,6 +104,40 @@ class NumberedLines:
                 return line
         raise self.error(f"follows {MOST_BLANK_LINES} blank lines: this is no table of numbers")
 
+    def next_uncommented(self) -> str | None:
+        """Read on to the next line that is neither blank nor a comment, which starts with '#'.
+
+        Returns:
+            The line without its end, or None at the end of the file.
+
+        Raises:
+            MotionFileError: As `next_line`, and after very many blank lines or comments.
+
+        Source:
+            None (file formats of this package, see `docs/files.md`).
+        """
+        for _ in range(MOST_BLANK_LINES):
+            line = self.next_content()
+            if line is None or not line.lstrip().startswith("#"):
+                return line
+            if len(self.comments) < _MOST_COMMENTS_KEPT:
+                self.comments.append(line.strip().lstrip("#").strip())
+        raise self.error(f"follows {MOST_BLANK_LINES} comments: this is no table of numbers")
+
+    def said(self, key: str) -> str:
+        """What a comment "# key: …" says, the first if there are several.
+
+        Args:
+            key: The key with its colon, in small letters.
+
+        Returns:
+            The text behind it, or "".
+
+        Source:
+            None (file formats of this package, see `docs/files.md`).
+        """
+        return next((text[len(key) :].strip() for text in self.comments if text.lower().startswith(key)), "")
+
     def error(self, said: str) -> MotionFileError:
         """An error about the line read last.
 
@@ -118,8 +159,6 @@ class NumberedLines:
         if any_encoding:
             return _NOT_UTF8.sub("\N{REPLACEMENT CHARACTER}", line)
         byte = ord(bad.group()) - 0xDC00
-        if self.number == 1 and bad.start() == 0 and byte in (0xFE, 0xFF):
-            raise self.error("starts like UTF-16 text: save the file as UTF-8")
         raise self.error(
             f"holds the byte 0x{byte:02x}, which is not UTF-8: save the file with the encoding UTF-8"
         )

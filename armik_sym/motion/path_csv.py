@@ -13,7 +13,7 @@ from armik_sym.errors import HandPathError, MotionFileError, ShapeError, UnitErr
 from armik_sym.motion.declared_units import column_units, largest, likely_time_unit
 from armik_sym.motion.hand_path import HandPath, checked_path
 from armik_sym.motion.rotations import quaternions_to_rotations, rotations_to_quaternions
-from armik_sym.motion.unit_table import UnitTable, read_table, write_table
+from armik_sym.motion.unit_table import OpenTable, open_table, write_table
 from armik_sym.motion.units import LENGTH_UNITS, NO_UNITS, TIME_UNITS, Unit
 
 Array = NDArray[np.float64]
@@ -50,23 +50,20 @@ def read_path(path: str | os.PathLike[str]) -> HandPath:
     Source:
         None (file format of this package, see `docs/files.md`).
     """
-    table = read_table(Path(path))
-    names = _check_columns(table)
-    units = column_units(table, {name: _UNITS[name] for name in names}, _likely_unit)
-
-    def block(wanted: tuple[str, ...]) -> Array:
-        return np.column_stack([table.values(name, units[name]) for name in wanted])
-
-    time, position = block(("time",))[:, 0], block(_POSITION)
+    file = Path(path)
+    with open_table(file) as opened:
+        names = _check_columns(opened)
+        table = opened.read(column_units(opened, {name: _UNITS[name] for name in names}, _likely_unit))
+    time, position = table.of(("time",))[:, 0], table.of(_POSITION)
     rotation: Array | None = None
     try:
         if "qw" in names:
-            rotation = quaternions_to_rotations(block(_QUATERNION), table.place)
+            rotation = quaternions_to_rotations(table.of(_QUATERNION), table.place)
         elif "r11" in names:
-            rotation = block(_MATRIX).reshape(-1, 3, 3)
+            rotation = table.of(_MATRIX).reshape(-1, 3, 3)
         return HandPath(*checked_path(time, position, rotation, table.place), note=table.note)
     except (HandPathError, UnitError, ShapeError) as error:
-        raise type(error)(f"{table.path}: {error}") from None
+        raise type(error)(f"{file}: {error}") from None
 
 
 def write_path(path: str | os.PathLike[str], hand_path: HandPath, comment: str | None = None) -> None:
@@ -94,7 +91,7 @@ def write_path(path: str | os.PathLike[str], hand_path: HandPath, comment: str |
     write_table(Path(path), columns, np.column_stack(values), "\n".join(filter(None, (comment, note))))
 
 
-def _check_columns(table: UnitTable) -> tuple[str, ...]:
+def _check_columns(table: OpenTable) -> tuple[str, ...]:
     """The columns that make the path, after refusing files that lack some or have others."""
     where = f"{table.path}: line {table.header_line}"
     unknown = [name for name in table.columns if name not in _UNITS]
@@ -118,7 +115,7 @@ def _check_columns(table: UnitTable) -> tuple[str, ...]:
     return names
 
 
-def _likely_unit(table: UnitTable, name: str) -> str:
+def _likely_unit(table: OpenTable, name: str) -> str:
     if name == "time":
         return likely_time_unit(table, name)
     return "mm" if max(largest(table, axis) for axis in _POSITION) > _ARM_LENGTH else "m"

@@ -88,6 +88,9 @@ def write_storage(path: str | os.PathLike[str], table: StorageTable, comment: st
     said = [line for line in comment.splitlines() if line.strip()]
     if any("endheader" in line.lower() for line in [table.title, *said]):
         raise MotionFileError(f"{file}: title and comment must not hold 'endheader', which ends the header")
+    fields = [line for line in [table.title, *said] if _says_field(line)]
+    if fields:
+        raise MotionFileError(f"{file}: title and comment must not hold {fields[0]!r}, a field of the header")
     degrees = [] if table.in_degrees is None else [f"inDegrees={'yes' if table.in_degrees else 'no'}"]
     lines = [
         " ".join(table.title.split()) or "Coordinates",
@@ -126,6 +129,11 @@ def _header(lines: NumberedLines) -> tuple[str, dict[str, tuple[str, int]]]:
         f"{lines.path}: no line 'endheader' in {lines.number} lines: the file is cut off, or no .mot or .sto "
         "file"
     )
+
+
+def _says_field(line: str) -> bool:
+    match = _PAIR.match(line)
+    return match is not None and match["key"].lower() in (*_COUNTS, "indegrees", "datatype")
 
 
 def _columns(lines: NumberedLines) -> tuple[list[str], str | None]:

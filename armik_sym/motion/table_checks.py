@@ -44,7 +44,8 @@ def check_table_names(
         if name in seen:
             raise MotionFileError(f"{where} {what} {name!r} occurs twice: every {what} needs its own name")
         seen.add(name)
-        bad = [mark for mark in f"{forbidden}\n\r" if mark in name]
+        # Halves of characters (surrogates) cannot be encoded.
+        bad = [mark for mark in name if mark in f"{forbidden}\n\r\0" or "\ud800" <= mark <= "\udfff"]
         if forbidden and (bad or name != name.strip()):
             said = repr(bad[0]) if bad else "blanks at its ends"
             raise MotionFileError(f"{where} {what} {name!r} cannot be written in this form: it has {said}")

@@ -17,7 +17,7 @@ from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.promised_rows import compare_rows, count_of, joined, warn
 from armik_sym.motion.table_checks import agreed_rate, check_table_names, check_times, errors_of_file
 from armik_sym.motion.text_file import write_lines
-from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_number, length_unit
+from armik_sym.motion.units import LENGTH_UNITS, Unit, from_si, is_rate, length_unit
 
 Array = NDArray[np.float64]
 
@@ -106,10 +106,7 @@ def write_trc(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
     """
     file, factor = Path(path), length_unit(unit)
     check_table_names(file, recording.names, forbidden="\t")
-    rate, n = (
-        repr(float(recording.rate)) if recording.n > 1 or recording.declared_rate else "1.0",
-        recording.n,
-    )
+    rate, n = _rate_to_write(file, recording), recording.n
     lines = [
         f"PathFileType\t4\t(X/Y/Z)\t{file.name}",
         "\t".join(_FIELDS),
@@ -125,6 +122,16 @@ def write_trc(path: str | os.PathLike[str], recording: MarkerRecording, unit: st
         end = [""] if not cells[-1] else []
         lines.append("\t".join((str(i + 1), from_si(time, Unit()), *cells, *end)))
     write_lines(file, lines)
+
+
+def _rate_to_write(file: Path, recording: MarkerRecording) -> str:
+    """The rate as text; the form demands one, where a single sample has none."""
+    if recording.n == 1 and recording.declared_rate is None:
+        return "1.0"
+    rate = repr(float(recording.rate))
+    if not is_rate(rate):
+        raise MotionFileError(f"{file}: a rate of {rate} Hz cannot be written: times are in seconds")
+    return rate
 
 
 def _first_line(lines: NumberedLines) -> str:
@@ -162,7 +169,7 @@ def _rate(file: Path, at: int, fields: Mapping[str, str]) -> float | None:
     text = fields.get("DataRate", "")
     if not text:
         return None
-    if not is_number(text) or float(text) <= 0:
+    if not is_rate(text):
         raise MotionFileError(
             f"{file}: line {at}: DataRate is {text[:40]!r}, expected a positive number [Hz]"
         )

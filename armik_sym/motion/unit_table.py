@@ -2,43 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from array import array
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armik_sym.errors import MotionFileError
+from armik_sym.motion.numbered_lines import NumberedLines
 from armik_sym.motion.table_header import Column, header_columns, row_cells
-from armik_sym.motion.text_file import read_lines, write_lines
+from armik_sym.motion.text_file import write_lines
 from armik_sym.motion.units import Unit, from_si, is_number, to_si
 
 _COMMENT = "#"
 _NOTE = "note:"
+# Rows that are enough to propose a unit.
+_PREVIEW = 1000
 
 
 @dataclass(frozen=True)
 class UnitTable:
-    """A table as read, cells still text.
+    """A table as read, in SI.
 
     Attributes:
-        path: The file.
         columns: The columns by name, in file order.
-        header_line: Line number of the header, from 1.
-        lines: Line number of every sample, from 1.
-        rows: Cells of every sample.
+        lines: Line number of every sample, from 1, shape (n,).
+        numbers: The numbers in SI, shape (n, columns).
         note: Where the data come from: what a comment line "# note: …" says, else empty.
 
     Source:
         RFC 4180 (comma-separated values).
     """
 
-    path: Path
     columns: Mapping[str, Column]
-    header_line: int
-    lines: tuple[int, ...]
-    rows: tuple[tuple[str, ...], ...]
+    lines: NDArray[np.int64]
+    numbers: NDArray[np.float64]
     note: str = ""
 
     def place(self, index: int) -> str:
@@ -55,61 +57,125 @@ class UnitTable:
         """
         return f"line {self.lines[index]} (sample {index})"
 
-    def values(self, name: str, unit: Unit) -> NDArray[np.float64]:
-        """One column in SI units.
+    def of(self, names: Sequence[str]) -> NDArray[np.float64]:
+        """Some columns, in SI.
 
         Args:
-            name: Name of the column.
-            unit: Its unit.
+            names: Names of k columns.
 
         Returns:
-            Values in SI, shape (n,).
-
-        Raises:
-            MotionFileError: If a cell is not a finite number.
+            Their values, shape (n, k).
 
         Source:
             None (bookkeeping).
         """
-        index = self.columns[name].index
-        cells = [row[index] for row in self.rows]
-        for line, cell in zip(self.lines, cells, strict=True):
-            if not is_number(cell):
-                raise MotionFileError(f"{self.path}: line {line}, column {name!r} {_not_a_number(cell)}")
-        return np.array([to_si(cell, unit) for cell in cells], dtype=np.float64)
+        return self.numbers[:, [self.columns[name].index for name in names]]
 
 
-def read_table(path: Path) -> UnitTable:
-    """Read a table: lines starting with '#' are comments, then one header row, then one row a sample.
+class OpenTable:
+    """A table whose header was read, and whose rows are still in the file.
+
+    Attributes:
+        path: The file.
+        columns: The columns by name, in file order.
+        header_line: Line number of the header, from 1.
+
+    Raises:
+        MotionFileError: If the file has no header row.
+
+    Source:
+        RFC 4180 (comma-separated values).
+    """
+
+    def __init__(self, lines: NumberedLines) -> None:
+        self._lines = lines
+        self.path = lines.path
+        heading = lines.next_uncommented()
+        if heading is None:
+            said = "only comments, expected" if lines.comments else "the file is empty, expected"
+            raise MotionFileError(f"{self.path}: {said} a header row such as 'time [s],x [mm],…'")
+        self.header_line = lines.number
+        self.columns = header_columns(self.path, self.header_line, heading)
+
+    @cached_property
+    def preview(self) -> list[tuple[str, ...]]:
+        """Cells of the first rows, as text, for proposals only: the table cannot be read any more."""
+        rows: list[tuple[str, ...]] = []
+        while len(rows) < _PREVIEW and (line := self._lines.next_uncommented()) is not None:
+            rows.append(self._cells(line))
+        return [row for row in rows if len(row) == len(self.columns)]
+
+    def read(self, units: Mapping[str, Unit]) -> UnitTable:
+        """Read the rows, one at a time, so that garbage is refused at its first line.
+
+        Args:
+            units: Unit of every column.
+
+        Returns:
+            The table.
+
+        Raises:
+            MotionFileError: If a row has another number of cells, a cell is no finite number, or there are
+                no rows.
+
+        Source:
+            RFC 4180 (comma-separated values).
+        """
+        order = [(name, units[name]) for name in self.columns]
+        numbers, at = array("d"), array("q")
+        while (line := self._lines.next_uncommented()) is not None:
+            cells = self._cells(line)
+            if len(cells) != len(order):
+                raise self._miscounted(len(cells))
+            at.append(self._lines.number)
+            for cell, (name, unit) in zip(cells, order, strict=True):
+                if not is_number(cell):
+                    raise MotionFileError(
+                        f"{self.path}: line {self._lines.number}, column {name!r} {_not_a_number(cell)}"
+                    )
+                numbers.append(to_si(cell, unit))
+        if not at:
+            raise MotionFileError(
+                f"{self.path}: the header on line {self.header_line} is followed by no samples"
+            )
+        values = np.array(numbers, dtype=np.float64).reshape(len(at), len(order))
+        return UnitTable(self.columns, np.array(at, dtype=np.int64), values, self._lines.said(_NOTE))
+
+    def _cells(self, line: str) -> tuple[str, ...]:
+        if '"' in line:
+            return row_cells(self.path, self._lines.number, line)
+        return tuple(cell.strip() for cell in line.split(","))
+
+    def _miscounted(self, have: int) -> MotionFileError:
+        want = len(self.columns)
+        failure = self._lines.error(f"has {have} cells, expected {want}")
+        if have < want and self._lines.next_uncommented() is None:
+            return MotionFileError(
+                f"{failure}: the file seems cut off; delete this line if the recording may end before it"
+            )
+        if have == 2 * want:
+            return MotionFileError(f"{failure}: decimal commas? Write numbers with a decimal point")
+        return MotionFileError(f"{failure}, one for each column of the header")
+
+
+@contextmanager
+def open_table(path: Path) -> Iterator[OpenTable]:
+    """Open a table: lines starting with '#' are comments, then one header row, then one row a sample.
 
     Args:
         path: The file.
 
     Returns:
-        The table, cells still text.
+        The table, read as far as its header.
 
     Raises:
-        MotionFileError: If the file is missing, unreadable, not such a table, or cut off.
+        MotionFileError: If the file is missing, unreadable or has no header row.
 
     Source:
         RFC 4180 (comma-separated values).
     """
-    numbered = [(number, line) for number, line in enumerate(read_lines(path), 1) if line.strip()]
-    content = [(number, line) for number, line in numbered if not line.lstrip().startswith(_COMMENT)]
-    if not content:
-        raise MotionFileError(f"{path}: only comments, expected a header row such as 'time [s],x [mm],…'")
-    (header_line, heading), body = content[0], content[1:]
-    columns = header_columns(path, header_line, heading)
-    if not body:
-        raise MotionFileError(f"{path}: the header on line {header_line} is followed by no samples")
-    rows = [row_cells(path, number, line) for number, line in body]
-    for i, (number, _) in enumerate(body):
-        if len(rows[i]) != len(columns):
-            last = i == len(body) - 1
-            raise MotionFileError(f"{path}: line {number} {_miscount(len(rows[i]), len(columns), last)}")
-    return UnitTable(
-        path, columns, header_line, tuple(number for number, _ in body), tuple(rows), _note(numbered)
-    )
+    with NumberedLines(path) as lines:
+        yield OpenTable(lines)
 
 
 def write_table(
@@ -137,21 +203,6 @@ def write_table(
     units = [unit for _, unit in columns.values()]
     lines += [",".join(map(from_si, row, units)) for row in values.tolist()]
     write_lines(path, lines)
-
-
-def _note(numbered: list[tuple[int, str]]) -> str:
-    comments = (line.strip().lstrip(_COMMENT).strip() for _, line in numbered if line.lstrip()[0] == _COMMENT)
-    notes = (text[len(_NOTE) :].strip() for text in comments if text.lower().startswith(_NOTE))
-    return next(notes, "")
-
-
-def _miscount(have: int, want: int, last: bool) -> str:
-    said = f"has {have} cells, expected {want}"
-    if last and have < want:
-        return f"{said}: the file seems cut off; delete this line if the recording may end before it"
-    if have == 2 * want:
-        return f"{said}: decimal commas? Write numbers with a decimal point"
-    return f"{said}, one for each column of the header"
 
 
 def _not_a_number(cell: str) -> str:

@@ -17,6 +17,8 @@ from armik_sym.errors import UnknownNameError
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\Z", re.ASCII)
 _CONTEXT = Context(prec=800)
 _LONGEST_PLAIN = 20
+# Beyond this, times and rates run out of the numbers a computer has.
+_FASTEST = 1e100
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,21 @@ def is_number(text: str) -> bool:
     return bool(_NUMBER.match(text)) and math.isfinite(float(text))
 
 
+def is_rate(text: str) -> bool:
+    """True if the text is a number that can be a rate, or a time between samples.
+
+    Args:
+        text: The text of a cell.
+
+    Returns:
+        Whether it is a positive number whose inverse is one, too.
+
+    Source:
+        None (bookkeeping).
+    """
+    return is_number(text) and 1.0 / _FASTEST <= float(text) <= _FASTEST
+
+
 def to_si(text: str, unit: Unit) -> float:
     """Read a number: value_SI = value · 10^shift · factor, rounded once.
 
@@ -92,7 +109,9 @@ def to_si(text: str, unit: Unit) -> float:
     value = float(text)
     if value == 0.0:
         return value
-    if unit.shift:
+    if unit.shift and "e" not in text and "E" not in text:
+        value = float(f"{text}e{unit.shift}")
+    elif unit.shift:
         value = float(Decimal(text).scaleb(unit.shift, _CONTEXT))
     return value * unit.factor
 

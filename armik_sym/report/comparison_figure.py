@@ -7,6 +7,7 @@ import textwrap
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from armik_sym.comparison import Comparison
@@ -18,14 +19,15 @@ from armik_sym.report.comparison_panel import (
     draw_pair,
 )
 from armik_sym.report.page import new_figure
-from armik_sym.report.style import INK, PANEL_SIZE
+from armik_sym.report.style import ALLOWED, INK, PANEL_SIZE
 from armik_sym.report.words import joint_title
 
 Array = NDArray[np.float64]
 
 _COLUMNS = 3
 _PANEL = (2.9, 2.3)
-_WIDTH = 165
+# Characters that fit on a line of the page.
+_WIDTH = 130
 _NOTES = 3
 # Differences smaller than this fill no panel: they would only show noise, in degrees and in millimetres.
 _SMALLEST_SCALE = {"deg": 5.0, "mm": 10.0}
@@ -61,16 +63,17 @@ def comparison_figure(comparison: Comparison, *, title: str | None = None) -> Fi
 
 
 def _draw_key(figure: Figure, comparison: Comparison) -> None:
-    """What the two lines are, in the first line of the head that was left free for it."""
+    """What lines and colours are, in the first line of the head that was left free for it."""
     handles = [
         Line2D([], [], **SOLVED_LINE, label=f"solved, method {comparison.solution.method}"),
         Line2D([], [], **MEASURED_LINE, label="measured"),
+        Patch(facecolor=ALLOWED, label="range of motion of the arm"),
     ]
     figure.legend(
         handles=handles,
         loc="upper left",
         bbox_to_anchor=figure.texts[1].get_position(),
-        ncols=2,
+        ncols=len(handles),
         frameon=False,
         fontsize=PANEL_SIZE,
         labelcolor=INK,
@@ -118,7 +121,7 @@ def _title(c: Comparison, title: str | None) -> str:
 
 
 def _lines(c: Comparison) -> list[str]:
-    lines = [" ", _explanation(c)]
+    lines = [_explanation(c)]
     lines += [c.solution.path.note] if c.solution.path.note else []
     notes = [f"Note: {note}." for note in c.notes[:_NOTES]]
     if len(c.notes) > _NOTES:
@@ -126,7 +129,8 @@ def _lines(c: Comparison) -> list[str]:
     if not c.solution.ok:
         notes.append(f"Solution not ok: {'; '.join(c.solution.reasons)}.")
     lines += notes
-    return [textwrap.shorten(line, _WIDTH, placeholder=" …") for line in lines]
+    wrapped = [textwrap.wrap(line, _WIDTH, max_lines=2, placeholder=" …") for line in lines]
+    return [" ", *(part for parts in wrapped for part in parts)]
 
 
 def _explanation(c: Comparison) -> str:
