@@ -20,7 +20,7 @@ _TIME = "time"
 _TWO_TURNS = 4 * math.pi
 
 
-def read_joint_angles(path: str | os.PathLike[str]) -> JointMotion:
+def read_joint_angles(path: str | os.PathLike[str], joints: Sequence[str] | None = None) -> JointMotion:
     """Read joint angles from a CSV file with units in its header.
 
     One column `time [s]`, every other column a joint: `shoulder_abduction [deg]`. Units: s, ms; rad,
@@ -28,20 +28,23 @@ def read_joint_angles(path: str | os.PathLike[str]) -> JointMotion:
 
     Args:
         path: The file.
+        joints: The columns wanted, in order; None: all. Others may hold anything, as errors in what a solver
+            wrote.
 
     Returns:
-        The motion, in SI units, joints in file order.
+        The motion, in SI units, joints in file order or in that asked for.
 
     Raises:
         MotionFileError: If the file is missing, unreadable, cut off, or a column name is wrong.
         UnitError: If a unit is not declared, unknown, or contradicted by the values.
+        UnknownNameError: If a column wanted does not exist.
         HandPathError: If time does not increase; names the line.
 
     Source:
         None (file format of this package, see `docs/files.md`).
     """
     table = read_table(Path(path))
-    joints = _joint_columns(table)
+    joints = _joint_columns(table, joints)
     allowed = {_TIME: TIME_UNITS, **dict.fromkeys(joints, ANGLE_UNITS)}
     units = column_units(table, allowed, _likely_unit)
     time = table.values(_TIME, units[_TIME])
@@ -90,7 +93,7 @@ def write_joint_angles(
     write_table(Path(path), columns, np.column_stack([motion.time, motion.q]), comment)
 
 
-def _joint_columns(table: UnitTable) -> tuple[str, ...]:
+def _joint_columns(table: UnitTable, wanted: Sequence[str] | None) -> tuple[str, ...]:
     where = f"{table.path}: line {table.header_line}"
     joints = tuple(name for name in table.columns if name != _TIME)
     if _TIME not in table.columns or not joints:
@@ -98,6 +101,10 @@ def _joint_columns(table: UnitTable) -> tuple[str, ...]:
             f"{where} has the columns {', '.join(map(repr, table.columns))}: joint angles need 'time' and at "
             "least one joint, as in 'time [s],elbow_flexion [deg]'"
         )
+    for name in wanted or ():
+        if name not in joints:
+            raise UnknownNameError("column", name, joints)
+    joints = joints if wanted is None else tuple(wanted)
     for name in joints:
         if table.columns[name].unit in LENGTH_UNITS:
             raise UnitError(

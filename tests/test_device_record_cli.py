@@ -1,0 +1,143 @@
+"""`armik record`: what it writes, says and returns, and how it ends."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from device_recorders import simulated
+from typer.testing import CliRunner
+
+import armik_sym as ak
+from armik_sym.cli import app
+from armik_sym.cli.device_recording import (
+    convert_device_recording,
+    device_hand_path,
+    device_motion,
+    is_device_recording,
+)
+from armik_sym.device.calibration import save_calibration
+from armik_sym.device.recording import read_recording
+from armik_sym.device.simulator import Faults, serve_socket, true_calibration
+from armik_sym.errors import OptionError
+
+ROOT = Path(ak.__file__).parents[1]
+
+
+def command(*arguments: object, stderr: int = subprocess.PIPE) -> subprocess.Popen[str]:
+    environment = {**os.environ, "TERM": "xterm", "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "error"}
+    return subprocess.Popen(
+        [sys.executable, "-m", "armik_sym", "record", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=stderr,
+        text=True,
+        env=environment,
+    )
+
+
+def run(*arguments: object):
+    return CliRunner().invoke(app, ["record", *map(str, arguments)])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_sigterm_end_cleanly(number: int, tmp_path: Path) -> None:
+    device, file = simulated(), tmp_path / "a.armikrec"
+    arm = ak.catalog.ehmcs()
+    calibration = save_calibration(true_calibration(device, arm), tmp_path / "device.toml")
+    with serve_socket(device) as served:
+        extra = ("--calibration", calibration, "--live", "swivel,endpoint")
+        process = command("--port", served.port, "--out", file, *extra)
+        until = time.monotonic() + 60.0
+        while len(served.truth.sent) < 900 and time.monotonic() < until:
+            time.sleep(0.02)
+        process.send_signal(number)
+        said, noted = process.communicate(timeout=30)
+    assert process.returncode == 0, noted
+    recording = read_recording(file)
+    assert recording.complete
+    assert (recording.lost, recording.damaged, recording.gaps) == (0, 0, ())
+    assert f"{file}: {recording.n:,} samples" in said
+    assert "lost            0 samples" in said
+    assert "samples/s" in noted
+    assert "device [deg]  shoulder_abduction" in noted
+    assert "human [deg]   shoulder_flexion" in noted
+    assert "endpoint [mm]  x " in noted
+    table = ak.read_motion(tmp_path / "a.csv")
+    assert table.n == recording.n
+    # What the arm really did, through what the sensors saw of it.
+    path = device_hand_path(file, arm)
+    true = ak.compile(arm, backend="vm").position(device.true_angles(np.round(path.time * 500)))
+    assert np.abs(path.position - true).max() < 3e-3
+    assert path.rotation is not None
+    assert device_motion(file).n == recording.n
+    convert_device_recording(file, tmp_path / "again.mot")
+    np.testing.assert_allclose(ak.read_motion(tmp_path / "again.mot").q, table.q, atol=1e-9)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
+def test_in_a_terminal_the_lines_change_in_place(tmp_path: Path) -> None:
+    device, file = simulated(), tmp_path / "a.armikrec"
+    calibration = save_calibration(true_calibration(device), tmp_path / "device.toml")
+    master, slave = os.openpty()
+    with serve_socket(device) as served:
+        extra = ("--seconds", 1.0, "--calibration", calibration)
+        process = command("--port", served.port, "--out", file, *extra, stderr=slave)
+        os.close(slave)
+        seen = b""
+        with contextlib.suppress(OSError):  # The end of a terminal is an error on Linux.
+            while data := os.read(master, 4096):
+                seen += data
+        said, _ = process.communicate(timeout=30)
+        os.close(master)
+    assert process.returncode == 0, seen
+    text = seen.decode()
+    assert 4 <= text.count("samples/s") <= 14
+    assert "\x1b[" in text
+    assert "shoulder_abduction" in text
+    assert "\x1b[" not in said
+
+
+def test_losses_are_exit_code_1(tmp_path: Path) -> None:
+    file = tmp_path / "a.armikrec"
+    with serve_socket(simulated(Faults(damaged_bytes=0.01))) as served:
+        done = run("--port", served.port, "--out", file, "--seconds", "1")
+    assert done.exit_code == 1, done.output
+    recording = read_recording(file)
+    assert recording.lost > 10
+    assert f"lost            {recording.lost:,} samples" in done.output
+    assert f"damaged         {recording.damaged:,} pieces" in done.output
+
+
+def test_errors_are_exit_code_2(tmp_path: Path) -> None:
+    file = tmp_path / "a.armikrec"
+    done = run("--port", "loop://", "--out", file, "--wait", "0.2")
+    assert done.exit_code == 2
+    assert "error: loop://: no sample within 0.2 s: no byte came" in done.output
+    for arguments, words in (
+        (("--out", tmp_path / "a.csv"), "recordings end in .armikrec"),
+        (("--out", file, "--live", "swivel"), "--live swivel needs angles: give --calibration"),
+        (("--out", file, "--live", "speed"), "valid are swivel, endpoint"),
+        (("--out", file, "--calibration", tmp_path / "no.toml"), "no.toml: no such file"),
+    ):
+        done = run("--port", "loop://", *arguments)
+        assert done.exit_code == 2
+        assert words in done.output
+    (tmp_path / "a.csv").write_text("precious", encoding="utf-8")
+    done = run("--port", "loop://", "--out", file, "--calibration", tmp_path / "no.toml")
+    assert "a.csv: exists already" in done.output
+    assert [each.name for each in tmp_path.iterdir()] == ["a.csv"]
+
+
+def test_recordings_are_recognised_by_their_ending(tmp_path: Path) -> None:
+    assert is_device_recording(Path("x.ARMIKREC"))
+    assert not is_device_recording(Path("x.csv"))
+    with pytest.raises(OptionError, match=r"written as .csv, .mot or .sto"):
+        convert_device_recording(tmp_path / "a.armikrec", tmp_path / "a.trc")
