@@ -3,9 +3,9 @@
     python benchmarks/device_end_to_end.py [--seconds 60]
 
 A simulated device plays a bundled task at 500 samples a second on a pseudo-terminal; `armik record` records
-it with its calibration; the measured angles give the path of the hand, and `armik solve` finds the joint
-angles again. Then the same with 1 % of the bytes damaged and the port closed twice: every undamaged sample
-has to be there, and nothing else may be counted.
+it with its calibration; `armik solve` takes the path of the hand from the measured angles, and finds joint
+angles for it again. Then the same with 1 % of the bytes damaged and the port closed twice: every undamaged
+sample has to be there, and nothing else may be counted.
 """
 
 from __future__ import annotations
@@ -22,7 +22,6 @@ from pathlib import Path
 import numpy as np
 
 import armik_sym as ak
-from armik_sym.cli.device_recording import device_hand_path
 from armik_sym.device.calibration import save_calibration
 from armik_sym.device.protocol import FrameParser, Sample
 from armik_sym.device.recording import Recorder, read_recording
@@ -54,10 +53,8 @@ def clean(folder: Path, seconds: float) -> bool:
     print(f"recorded             {recording!r}; sent {len(sent)}, exit code {done.returncode}")
     off = np.degrees(np.abs(recording.angles().q - device.true_angles(recording.sequence)).max())
     print(f"angles               largest error {off:.2f}°")
-    path = device_hand_path(file, arm, rate=50.0)
-    ak.write_path(folder / "path.csv", path)
     began = time.monotonic()
-    solved = armik("solve", folder / "path.csv", "--out", folder / "out")
+    solved = armik("solve", file, "--out", folder / "out")
     print(f"armik solve          exit code {solved.returncode}, {time.monotonic() - began:.1f} s")
     print("\n".join("    " + line for line in (solved.stdout or solved.stderr).splitlines()))
     return (

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from multiprocessing.sharedctypes import Synchronized
+from collections.abc import MutableSequence
 
 from armik_sym.device.recording import Port, Recorder
 
 
-def record_and_tell(port: str, file: str, received: Synchronized[int]) -> None:
-    """Record, and say in shared memory how many bytes the port has handed over."""
+def record_and_tell(port: str, file: str, received: MutableSequence[int]) -> None:
+    """Record, and say in shared memory how many bytes the port had handed over before and with the last read.
+
+    The memory has no lock: kill -9 would leave it locked for ever.
+    """
     read = Port.read
 
     def counted(self: Port) -> bytes:
         data = read(self)
-        received.value += len(data)
+        received[0] = received[1]
+        received[1] += len(data)
         return data
 
     Port.read = counted  # type: ignore[method-assign]

@@ -2,32 +2,37 @@
 
 from __future__ import annotations
 
+import io
 import math
-import os
 import socket
-import subprocess
 import sys
 import threading
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+import pytest
 
+from armik_sym.cli import app
+from armik_sym.device.calibration import tap
 from armik_sym.device.channels import DeviceInfo
 from armik_sym.device.protocol import Sample, encode_info, encode_sample
 from armik_sym.device.simulator import Encoder, Potentiometer
 
 RATE = 200.0
-PROMPTS = (b"]: ", b"held still: ")
+SPEED = 3000.0  # [deg/s], of joints on their way
+ON_THE_WAY = 0.06  # [s], time to get there before the key is pressed
+CTRL_C = "^C"
 
 
 class HeldDevice:
     """Sends frames of simulated sensors at the angles held at the moment.
 
     Attributes:
-        angles_deg: Where the joints are, in [deg]; a joint moves there at 600 degrees per second.
+        angles_deg: Where the joints are, in [deg]; a joint gets there within `ON_THE_WAY`.
         shaking_deg: Standard deviation of a tremor of all joints, in [deg].
     """
 
@@ -62,7 +67,7 @@ class HeldDevice:
 
     def _frames(self) -> bytes:
         goal = np.array(self.angles_deg)
-        self._at += np.clip(goal - self._at, -600 / RATE, 600 / RATE)
+        self._at += np.clip(goal - self._at, -SPEED / RATE, SPEED / RATE)
         angles = self._at + self.shaking_deg * self._random.standard_normal(len(goal))
         readings = [r.read(np.array([math.radians(a)])) for r, a in zip(self._readers, angles, strict=True)]
         flags = sum(bool(reading.index[0]) << k for k, reading in enumerate(readings))
@@ -70,7 +75,7 @@ class HeldDevice:
         counts = tuple(int(reading.counts[0]) for reading in readings)
         data = encode_sample(Sample(self._sequence, self._sequence * 5000, counts, flags, latched))
         self._sequence += 1
-        return (encode_info(self.info) if self._sequence % 50 == 1 else b"") + data
+        return (encode_info(self.info) if self._sequence % 10 == 1 else b"") + data
 
 
 @contextmanager
@@ -85,6 +90,23 @@ def serving(device: HeldDevice) -> Iterator[HeldDevice]:
         thread.join(5)
 
 
+class Answers(io.TextIOBase):
+    """What is typed: before each answer the joints move; where there is none left, the input ends."""
+
+    def __init__(self, device: HeldDevice, typed: Sequence[tuple[str, Sequence[float]]]) -> None:
+        self._device, self._left = device, list(typed)
+
+    def readline(self, size: int = -1) -> str:  # type: ignore[override]
+        if not self._left:
+            return ""
+        text, angles = self._left.pop(0)
+        if text == CTRL_C:
+            raise KeyboardInterrupt
+        self._device.angles_deg = list(angles)
+        time.sleep(ON_THE_WAY)
+        return f"{text}\n"
+
+
 class Done(NamedTuple):
     """How a dialogue ended."""
 
@@ -95,31 +117,19 @@ class Done(NamedTuple):
 def converse(
     device: HeldDevice, arguments: Sequence[str], typed: Sequence[tuple[str, Sequence[float]]]
 ) -> Done:
-    """Run the command `armik` as a process of its own; at each prompt move the joints, then type."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "armik_sym", *arguments],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        bufsize=0,
-        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
-    )
-    guard = threading.Timer(120.0, process.kill)
-    guard.start()
-    output, answers = b"", list(typed)
-    try:
-        with process:
-            if process.stdin is None or process.stdout is None:
-                raise RuntimeError("no pipes")
-            while piece := process.stdout.read(4096):
-                output += piece
-                if output.endswith(PROMPTS) and answers:
-                    text, angles = answers.pop(0)
-                    device.angles_deg = list(angles)
-                    time.sleep(0.3)  # the time it takes to get there, before the key is pressed
-                    process.stdin.write(f"{text}\n".encode())
-                elif output.endswith(PROMPTS):
-                    process.stdin.close()
-    finally:
-        guard.cancel()
-    return Done(process.returncode, output.decode("utf-8"))
+    """Run the command `armik`; at each prompt move the joints, then type. Hands here come to rest at once."""
+    output = io.StringIO()
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(output):
+        patch.setattr(tap, "SETTLE", 0.02)
+        patch.setattr(sys, "stdin", Answers(device, typed))
+        with pytest.raises(SystemExit) as end:
+            app(list(arguments))
+    return Done(int(end.value.code or 0), output.getvalue())
+
+
+def calibrate(
+    device: HeldDevice, out: Path, typed: Sequence[tuple[str, Sequence[float]]], *more: str
+) -> Done:
+    """Run `armik calibrate` on a device, a tenth of a second per posture."""
+    arguments = ["calibrate", "--port", device.url, "--out", str(out), "--seconds", "0.1", *more]
+    return converse(device, arguments, typed)

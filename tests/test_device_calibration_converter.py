@@ -25,10 +25,10 @@ def of(*joints: object) -> Calibration:
 @given(st.data())
 def test_blocks_of_any_size_give_the_same_bits(data: st.DataObject) -> None:
     n = data.draw(st.integers(1, 60))
-    draw = st.integers(0, 4095)
-    walk = np.cumsum(data.draw(st.lists(st.integers(-3000, 3000), min_size=n, max_size=n))) % 65536
-    pots = np.array(data.draw(st.lists(st.tuples(draw, draw), min_size=n, max_size=n)))
-    pulses = np.where(data.draw(st.lists(st.booleans(), min_size=n, max_size=n)), (walk + 3) % 65536, -1)
+    random = np.random.default_rng(data.draw(st.integers(0, 2**32)))
+    walk = np.cumsum(random.integers(-3000, 3001, n)) % 65536
+    pots = random.integers(0, 4096, (n, 2))
+    pulses = np.where(random.random(n) < data.draw(st.floats(0, 1)), (walk + 3) % 65536, -1)
     counts = np.column_stack([pots, walk])
     at_index = np.column_stack([np.full((n, 2), -1), pulses])
     calibration = of(

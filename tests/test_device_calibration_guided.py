@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from held_device import HeldDevice, converse, serving
+from held_device import HeldDevice, calibrate, serving
 from typer.testing import CliRunner
 
 import armik_sym as ak
 from armik_sym.cli import app
-from armik_sym.device.calibration import ScaleSource, load_calibration
+from armik_sym.device.calibration import ScaleSource, load_calibration, tap
 from armik_sym.device.simulator import Encoder, Potentiometer, SimulatedDevice, sensors_of, serve_pty
 from armik_sym.motion.joint_motion import JointMotion
 
@@ -21,11 +21,6 @@ NAMES = ak.catalog.ehmcs(5).joint_names
 ZERO = (0.0, 0.0, 0.0, 0.0, 0.0)
 # Abduction, flexion, elbow, then internal rotation and pronation with the elbow bent.
 POSES = [(90, 0, 0, 0, 0), (0, 90, 0, 0, 0), (0, 0, 0, 90, 0), (0, 0, 45, 90, 0), (0, 0, 0, 90, 60)]
-
-
-def calibrate(device: HeldDevice, out: Path, typed: list[tuple[str, tuple[float, ...]]], *more: str):
-    arguments = ["calibrate", "--port", device.url, "--out", str(out), "--seconds", "0.3", *more]
-    return converse(device, arguments, typed)
 
 
 def test_guided_calibration_recovers_the_device(tmp_path: Path) -> None:
@@ -135,7 +130,8 @@ def test_index_passed_on_the_way_is_kept(tmp_path: Path) -> None:
     assert (joint.index - joint.zero) * joint.scale == pytest.approx(0.5, abs=0.01)
 
 
-def test_wrong_use(tmp_path: Path) -> None:
+def test_wrong_use(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tap, "WAIT_FOR_FRAMES", 0.3)
     out = str(tmp_path / "a.toml")
     for arguments, said in (
         (["--out", out], "give either --port"),
@@ -143,7 +139,7 @@ def test_wrong_use(tmp_path: Path) -> None:
         (["--out", out, "--from", "a", "--zero", "b"], "go with --port"),
         (["--out", out, "--port", "a", "--zero", "b", "--datasheet", "+"], "exclude each other"),
         (["--out", out, "--port", "a", "--seconds", "0"], "--seconds is 0"),
-        (["--out", out, "--port", "loop://"], "nothing came from the device"),
+        (["--out", out, "--port", "loop://"], "no byte came"),
         (["--out", out, "--port", "/dev/not-there"], "no such port"),
         (["--out", out, "--port", "loop://", "--channels", "a"], "expected whole numbers"),
         (["--out", str(tmp_path / "x" / "a"), "--port", "loop://"], "there is no folder"),
@@ -168,8 +164,8 @@ def test_on_a_pseudo_terminal(tmp_path: Path) -> None:
     out = tmp_path / "a.toml"
     with serve_pty(SimulatedDevice(motion, sensors, device_id=5)) as served:
         arguments = ["calibrate", "--port", served.port, "--out", str(out), "--datasheet", "-,+"]
-        done = CliRunner().invoke(app, arguments, input="\n")
+        done = CliRunner().invoke(app, [*arguments, "--seconds", "0.5"], input="\n")
     assert done.exit_code == 0, done.output
     first, second = load_calibration(out).joints
     assert abs(first.zero - sensors[0].zero) < 6 * first.quality.zero_error
-    assert (second.zero, second.quality.samples) == (40, 500)
+    assert (second.zero, second.quality.samples) == (40, 250)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import signal
 import subprocess
@@ -18,15 +19,13 @@ from typer.testing import CliRunner
 import armik_sym as ak
 from armik_sym.cli import app
 from armik_sym.cli.device_recording import (
-    convert_device_recording,
     device_hand_path,
     device_motion,
     is_device_recording,
 )
 from armik_sym.device.calibration import save_calibration
 from armik_sym.device.recording import read_recording
-from armik_sym.device.simulator import Faults, serve_socket, true_calibration
-from armik_sym.errors import OptionError
+from armik_sym.device.simulator import Faults, SimulatedDevice, serve_socket, true_calibration
 
 ROOT = Path(ak.__file__).parents[1]
 
@@ -56,7 +55,7 @@ def test_ctrl_c_and_sigterm_end_cleanly(number: int, tmp_path: Path) -> None:
         extra = ("--calibration", calibration, "--live", "swivel,endpoint")
         process = command("--port", served.port, "--out", file, *extra)
         until = time.monotonic() + 60.0
-        while len(served.truth.sent) < 900 and time.monotonic() < until:
+        while len(served.truth.sent) < 700 and time.monotonic() < until:
             time.sleep(0.02)
         process.send_signal(number)
         said, noted = process.communicate(timeout=30)
@@ -78,7 +77,8 @@ def test_ctrl_c_and_sigterm_end_cleanly(number: int, tmp_path: Path) -> None:
     assert np.abs(path.position - true).max() < 3e-3
     assert path.rotation is not None
     assert device_motion(file).n == recording.n
-    convert_device_recording(file, tmp_path / "again.mot")
+    done = CliRunner().invoke(app, ["convert", str(file), str(tmp_path / "again.mot")])
+    assert done.exit_code == 0, done.output
     np.testing.assert_allclose(ak.read_motion(tmp_path / "again.mot").q, table.q, atol=1e-9)
 
 
@@ -99,7 +99,7 @@ def test_in_a_terminal_the_lines_change_in_place(tmp_path: Path) -> None:
         os.close(master)
     assert process.returncode == 0, seen
     text = seen.decode()
-    assert 4 <= text.count("samples/s") <= 14
+    assert 1 <= text.count("samples/s") <= 14
     assert "\x1b[" in text
     assert "shoulder_abduction" in text
     assert "\x1b[" not in said
@@ -124,6 +124,8 @@ def test_errors_are_exit_code_2(tmp_path: Path) -> None:
     for arguments, words in (
         (("--out", tmp_path / "a.csv"), "recordings end in .armikrec"),
         (("--out", file, "--live", "swivel"), "--live swivel needs angles: give --calibration"),
+        (("--out", file, "--arm", "ehmcs"), "--arm is for angles: give --calibration"),
+        (("--out", file, "--baud", "0"), "baud is 0"),
         (("--out", file, "--live", "speed"), "valid are swivel, endpoint"),
         (("--out", file, "--calibration", tmp_path / "no.toml"), "no.toml: no such file"),
     ):
@@ -136,8 +138,45 @@ def test_errors_are_exit_code_2(tmp_path: Path) -> None:
     assert [each.name for each in tmp_path.iterdir()] == ["a.csv"]
 
 
-def test_recordings_are_recognised_by_their_ending(tmp_path: Path) -> None:
+def captured(folder: Path) -> tuple[SimulatedDevice, list[str]]:
+    """A second of a device's bytes, as `cat` writes them to a file, and the calibration to read them with."""
+    device, file = simulated(), folder / "a.armikrec"
+    file.write_bytes(b"".join(frame.data for frame in itertools.islice(device.frames(), 502)))
+    calibration = save_calibration(true_calibration(device, ak.catalog.ehmcs()), folder / "device.toml")
+    return device, [str(file), "--calibration", str(calibration)]
+
+
+def test_a_recording_is_converted_and_solved(tmp_path: Path) -> None:
+    device, words = captured(tmp_path)
+    done = CliRunner().invoke(app, ["convert", words[0], str(tmp_path / "a.csv"), *words[1:]])
+    assert done.exit_code == 0, done.output
+    angles = ak.read_motion(tmp_path / "a.csv")
+    assert np.abs(angles.q - device.true_angles(np.arange(angles.n))).max() < np.radians(0.5)
+    done = CliRunner().invoke(app, ["solve", *words, "--backend", "vm", "--out", str(tmp_path / "out")])
+    assert done.exit_code == 0, done.output
+    arm = ak.catalog.ehmcs()
+    solved = ak.read_motion(tmp_path / "out" / "a_solution.csv", arm.joint_names)
+    hand = ak.compile(arm, backend="vm").position
+    true = device.true_angles(np.round(solved.time * 500))
+    assert np.abs(hand(solved.q) - hand(true)).max() < 3e-3
+
+
+def test_wrong_use_of_recordings_by_other_commands(tmp_path: Path) -> None:
+    _, (file, *calibration) = captured(tmp_path)
+    out = ("--out", str(tmp_path / "out"))
+    for words, said in (
+        (["convert", file, "a.trc", *calibration], "written as .csv, .mot or .sto"),
+        (["convert", file, "a.csv", "--fill", "1"], "--fill does not go with a recording of a device"),
+        (["convert", file, str(tmp_path / "b.csv")], "holds no calibration"),
+        (["convert", str(tmp_path / "b.armikrec"), "b.csv"], "no such file"),
+        (["solve", file, *out], "holds no calibration"),
+        (["solve", str(tmp_path / "b.csv"), *calibration, *out], "--calibration is for recordings"),
+        (["solve", file, *calibration, "--arm", "human", *out], "angles of these names are others"),
+    ):
+        done = CliRunner().invoke(app, words)
+        assert (done.exit_code, said in done.output) == (2, True), done.output
+
+
+def test_recordings_are_recognised_by_their_ending() -> None:
     assert is_device_recording(Path("x.ARMIKREC"))
     assert not is_device_recording(Path("x.csv"))
-    with pytest.raises(OptionError, match=r"written as .csv, .mot or .sto"):
-        convert_device_recording(tmp_path / "a.armikrec", tmp_path / "a.trc")

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import armik_sym as ak
 from armik_sym.device.calibration import calibration_text
 from armik_sym.device.channels import SensorKind
-from armik_sym.device.protocol import encode_payload
+from armik_sym.device.protocol import encode_info, encode_payload
 from armik_sym.device.recording import GapReason, WarningKind, read_recording
 from armik_sym.device.recording.host_frames import (
     EndMark,
@@ -165,3 +165,12 @@ def test_angles_and_files(tmp_path: Path) -> None:
     torn = read_recording(file_of(tmp_path, HEADER, text[:-200], *frames(300)))
     assert torn.calibration is None
     assert "299 samples" in repr(bare)
+
+
+def test_a_device_that_sent_no_sample_has_its_channels_all_the_same(tmp_path: Path) -> None:
+    device, file = simulated(), tmp_path / "a.armikrec"
+    file.write_bytes(encode_info(device.info))
+    recording = read_recording(file)
+    assert recording.counts.shape == recording.at_index.shape == (0, 7)
+    angles, names = recording.joint_angles(true_calibration(device, ak.catalog.ehmcs()))
+    assert (angles.shape, len(names)) == ((0, 7), 7)

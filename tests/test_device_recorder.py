@@ -18,19 +18,19 @@ from armik_sym.device.simulator import Faults, Jump, Silence, true_calibration
 def test_no_frame_is_lost_at_500_per_second(serve: Any, tmp_path: Path) -> None:
     device, file = simulated(), tmp_path / "a.armikrec"
     calibration = true_calibration(device, ak.catalog.ehmcs())
-    with serve(device, seconds=3.0) as served:
+    with serve(device, seconds=2.0) as served:
         _, summary = recorded(served, file, calibration=calibration)
         sent = served.truth.sent
-    assert len(sent) == 1500
+    assert len(sent) == 1000
     recording = read_recording(file)
     assert np.array_equal(recording.sequence, sent)
     assert (recording.lost, recording.damaged, recording.gaps) == (0, 0, ())
-    assert (summary.status.samples, summary.status.lost, summary.status.damaged) == (1500, 0, 0)
+    assert (summary.status.samples, summary.status.lost, summary.status.damaged) == (1000, 0, 0)
     assert recording.complete
     assert not recording.torn
     assert recording.info == device.info
     assert recording.port == served.port
-    np.testing.assert_allclose(recording.time, np.arange(1500) / 500, atol=1e-12)
+    np.testing.assert_allclose(recording.time, np.arange(1000) / 500, atol=1e-12)
     motion = recording.angles()
     assert motion.joint_names == device.joint_names
     # Half a count of potentiometers is 0.04°, their noise 0.5 counts; encoders give 0.09° a count.
@@ -39,9 +39,9 @@ def test_no_frame_is_lost_at_500_per_second(serve: Any, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("serve", SERVERS)
 def test_damage_and_a_port_closed_twice_cost_nothing_but_what_they_hit(serve: Any, tmp_path: Path) -> None:
-    faults = Faults(damaged_bytes=0.01, close_at=(0.9, 2.0), closed_for=0.4)
+    faults = Faults(damaged_bytes=0.01, close_at=(0.6, 1.4), closed_for=0.4)
     device, file = simulated(faults), tmp_path / "a.armikrec"
-    with serve(device, seconds=3.0) as served:
+    with serve(device, seconds=2.2) as served:
         recorder, summary = recorded(served, file)
         truth = served.truth
         undamaged, damaged = truth.undamaged, truth.damaged

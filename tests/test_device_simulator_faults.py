@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from simulated_devices import BRUSHING, SEVEN, counts_of, device, first_samples
 
@@ -32,6 +32,7 @@ def test_without_faults_every_frame_arrives_and_an_info_comes_every_second() -> 
     assert [sample.time_us for sample in samples] == [5000 * k for k in range(2000)]
 
 
+@settings(max_examples=50)
 @given(
     shares=st.tuples(*[st.sampled_from([0.0, 0.0005, 0.01, 0.1])] * 3),
     seed=st.integers(0, 2**32 - 1),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armik_sym.cli.calibrate_input import TypedDialogue, channels_typed, setups_typed
+from armik_sym.cli.calibrate_input import channels_typed
 from armik_sym.cli.console import plain_table, say, show
 from armik_sym.errors import OptionError
 
@@ -54,7 +54,11 @@ def calibrate(
     seconds: Annotated[float, typer.Option(help="How long each posture is recorded, in seconds.")] = 1.0,
     baud: Annotated[int | None, typer.Option(help="Bits per second.")] = None,
 ) -> None:
-    """Find scale, direction and zero of every joint: guided, posture by posture, or from a file."""
+    """Find scale, direction and zero of every joint: guided, posture by posture, or from a file.
+
+    Postures are kept as they are taken: after Ctrl-C or an error the same command goes on from there.
+    """
+    from armik_sym.cli.calibrate_guided import Guided, new_zeros
     from armik_sym.device.calibration import fit_calibration, save_calibration
     from armik_sym.device.calibration.posture_file import load_postures
 
@@ -65,18 +69,10 @@ def calibrate(
         read = load_postures(source)
         found = fit_calibration(read.info, read.postures, read.setups, angle_error=math.radians(angle_error))
     elif zero is not None:
-        found = _new_zeros(zero, str(port), seconds, baud)
+        found = new_zeros(zero, str(port), seconds, baud)
     else:
-        found = _guided(
-            str(port),
-            arm,
-            channels_typed(channels),
-            datasheet,
-            thorough,
-            math.radians(angle_error),
-            seconds,
-            baud,
-        )
+        guided = Guided(str(port), baud, out, arm, channels_typed(channels), datasheet, thorough, seconds)
+        found = guided.calibration(math.radians(angle_error))
     _show(found)
     say(f"\n{save_calibration(found, out)}: calibration of device {found.device_id}")
 
@@ -94,55 +90,6 @@ def _check(
         raise OptionError("--zero and --datasheet exclude each other")
     if not 0.05 <= seconds <= 60:
         raise OptionError(f"--seconds is {seconds:g}, expected 0.05 to 60")
-
-
-def _guided(
-    port: str,
-    arm: str,
-    channels: list[int] | None,
-    datasheet: str | None,
-    thorough: bool,
-    angle_error: float,
-    seconds: float,
-    baud: int | None,
-) -> Calibration:
-    from armik_sym.arm import load_arm
-    from armik_sym.device.calibration import arm_setup, fit_calibration
-    from armik_sym.device.calibration.guide import take_postures
-    from armik_sym.device.calibration.steps import guided_steps
-    from armik_sym.device.calibration.tap import open_tap
-    from armik_sym.device.recording.port import DEFAULT_BAUD
-
-    with open_tap(port, DEFAULT_BAUD if baud is None else baud) as tap:
-        info = tap.info()
-        setups = arm_setup(load_arm(arm), info, channels)
-        steps = guided_steps(setups, thorough)
-        if datasheet is not None:
-            setups, steps = setups_typed(setups, info, datasheet), steps[:1]
-        say(
-            f"Device {info.device_id} ({info.firmware}), {len(info.channels)} sensors, {info.rate:g} samples "
-            "per second. Keep it switched on until the end. Each posture is recorded when you press Enter; "
-            "type another angle if you measured one (goniometer)."
-        )
-        postures = take_postures(tap, info, setups, steps, TypedDialogue(), seconds)
-    return fit_calibration(info, postures, setups, angle_error=angle_error)
-
-
-def _new_zeros(old: Path, port: str, seconds: float, baud: int | None) -> Calibration:
-    from armik_sym.device.calibration import load_calibration
-    from armik_sym.device.calibration.guide import take_postures
-    from armik_sym.device.calibration.setup import JointSetup
-    from armik_sym.device.calibration.steps import guided_steps
-    from armik_sym.device.calibration.tap import open_tap
-    from armik_sym.device.recording.port import DEFAULT_BAUD
-
-    calibration = load_calibration(old)
-    with open_tap(port, DEFAULT_BAUD if baud is None else baud) as tap:
-        info = tap.info()
-        calibration.check_device(info)
-        setups = [JointSetup(joint.joint, joint.channel) for joint in calibration.joints]
-        (pose,) = take_postures(tap, info, setups, guided_steps(setups)[:1], TypedDialogue(), seconds)
-    return calibration.rezeroed(pose.table)
 
 
 def _show(calibration: Calibration) -> None:

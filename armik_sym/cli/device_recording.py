@@ -87,6 +87,35 @@ def device_hand_path(
     return HandPath(motion.time, position, rotation, note=f"measured by a device, {source.name}")
 
 
+def hand_path(source: Path, arm: Arm, calibration: Path | None = None) -> HandPath:
+    """The path of the hand in a file: a hand path, or what a device measured.
+
+    Args:
+        source: The file.
+        arm: The arm that was measured.
+        calibration: Calibration of the device, for recordings only; None: the one in the recording.
+
+    Returns:
+        The path.
+
+    Raises:
+        OptionError: If a calibration is given with a hand path.
+        CalibrationError: If there is no calibration, it is another device's, or a joint is none of the arm's.
+        PathError: If a hand path is none.
+        MotionFileError: If a recording cannot be read.
+
+    Source:
+        None (command line).
+    """
+    if is_device_recording(source):
+        return device_hand_path(source, arm, calibration)
+    if calibration is not None:
+        raise OptionError(f"--calibration is for recordings of a device ({ENDING}), {source} is none")
+    from armik_sym.motion import read_path
+
+    return read_path(source)
+
+
 def convert_device_recording(source: Path, target: Path, calibration: Path | None = None) -> None:
     """Write the joint angles of a recording as `.csv`, `.mot` or `.sto`, and say so.
 

@@ -52,6 +52,8 @@ def record(
     Exit code 0: ok; 1: recorded, but samples were lost; 2: error.
     """
     wanted = _wanted(live, calibration)
+    if arm is not None and calibration is None:
+        raise OptionError("--arm is for angles: give --calibration FILE, too")
     if out.suffix.lower() != ENDING:
         raise OptionError(f"--out {out}: recordings end in {ENDING}: {out.with_suffix(ENDING)}")
     table = out.with_suffix(".csv")
@@ -62,7 +64,12 @@ def record(
     chosen = _calibration(calibration)
     with RecordView(_live_angles(chosen, arm), chosen, wanted) as view:
         recorder = Recorder(
-            port, out, baud=baud or DEFAULT_BAUD, calibration=chosen, wait=wait, notices=view.notices.put
+            port,
+            out,
+            baud=DEFAULT_BAUD if baud is None else baud,
+            calibration=chosen,
+            wait=wait,
+            notices=view.notices.put,
         )
         view.watch(recorder)
         with stopping(recorder.stop):

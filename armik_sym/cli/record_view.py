@@ -89,10 +89,11 @@ class RecordView:
 
         console = Console(file=sys.stderr, markup=False, highlight=False, emoji=False)
         with Live(console=console, transient=True, auto_refresh=False) as live:
-            while not self._ending.wait(_IN_TERMINAL):
+            ended = False
+            while not ended:
+                ended = self._ending.wait(_IN_TERMINAL)
                 self._say_notices(live)
                 live.update(Text("\n".join(self._lines())), refresh=True)
-            self._say_notices(live)
 
     def _lines(self) -> list[str]:
         if self._recorder is None:
@@ -103,7 +104,9 @@ class RecordView:
         if self._angles is not None and self._calibration is not None and samples:
             names = self._calibration.joint_names
             self._latest = pose_lines(self._angles, names, samples, self._wanted)
-        if self._zero_lost(status):
+        if not status.connected and not self._ending.is_set():
+            self._latest = []  # a posture of some time ago is no live one
+        elif self._zero_lost(status):
             self._latest = ["no angles: the device restarted, and its encoders lost their zero"]
         return lines + self._latest
 

@@ -9,13 +9,19 @@ import typer
 
 from armik_sym.cli.arguments import backend_name, only_for_trajectory, posture, rate, settings
 from armik_sym.cli.console import say
+from armik_sym.cli.device_recording import hand_path
 from armik_sym.cli.failures import NOT_OK
 from armik_sym.cli.output_files import prepare_folder, write_results
 from armik_sym.cli.progress_bar import ProgressBar
 
 
 def solve(
-    file: Annotated[Path, typer.Argument(help="Hand path: a CSV file with units in its header.")],
+    file: Annotated[
+        Path,
+        typer.Argument(
+            help="Hand path: a CSV file with units in its header; or a recording of a device (.armikrec)."
+        ),
+    ],
     arm: Annotated[str, typer.Option(help="Arm: a name (ehmcs, human, alfaiz) or a TOML file.")] = "ehmcs",
     method: Annotated[
         str,
@@ -59,6 +65,10 @@ def solve(
     ] = False,
     seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
     backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
+    calibration: Annotated[
+        Path | None,
+        typer.Option(help="Calibration (TOML) for a recording of a device; default: the one in it."),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("armik_out"),
 ) -> None:
     """Solve a hand path.
@@ -88,7 +98,7 @@ def solve(
         **{name: value for name, value in words.items() if value is not None},
     }
     model = ak.load_arm(arm)
-    path = ak.read_path(file)
+    path = hand_path(file, model, calibration)
     first = None if start is None else posture(start, model)
     prepare_folder(out)
     with ProgressBar(file.name) as progress:

@@ -92,7 +92,8 @@ def full_posture(arm: Arm, joint_names: Sequence[str], q: ArrayLike) -> Array:
         Shape (n, dof), in [rad].
 
     Raises:
-        CalibrationError: If a joint is none of the arm's.
+        CalibrationError: If a joint is none of the arm's, or the joints come in another order: then angles of
+            the same name are others, as those of `catalog.ehmcs` and `catalog.human` are.
 
     Source:
         None (bookkeeping).
@@ -105,6 +106,12 @@ def full_posture(arm: Arm, joint_names: Sequence[str], q: ArrayLike) -> Array:
                 f"measured joint {name!r} is none of arm {arm.name!r}: it has {', '.join(arm.joint_names)}"
             )
         posture[:, arm.joint_names.index(name)] = angles[:, column]
+    order = [name for name in arm.joint_names if name in joint_names]
+    if order != list(joint_names):
+        raise CalibrationError(
+            f"measured joints {', '.join(joint_names)} come as {', '.join(order)} in arm {arm.name!r}, where "
+            "angles of these names are others: take the arm that the device was calibrated as"
+        )
     return posture
 
 

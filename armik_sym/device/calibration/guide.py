@@ -9,6 +9,7 @@ from typing import Protocol
 from armik_sym.device.calibration.converter import sample_arrays
 from armik_sym.device.calibration.held import complaint
 from armik_sym.device.calibration.posture import Posture
+from armik_sym.device.calibration.posture_log import PostureLog
 from armik_sym.device.calibration.setup import JointSetup
 from armik_sym.device.calibration.steps import Step
 from armik_sym.device.calibration.tap import Tap
@@ -57,6 +58,7 @@ def take_postures(
     steps: Sequence[Step],
     dialogue: Dialogue,
     seconds: float = 1.0,
+    log: PostureLog | None = None,
 ) -> list[Posture]:
     """Take posture after posture; one that was not held as meant is taken again.
 
@@ -67,6 +69,7 @@ def take_postures(
         steps: The postures.
         dialogue: How to talk to the person.
         seconds: How long each is recorded, in [s].
+        log: Where they are written down as they are taken; those that it has already are not taken again.
 
     Returns:
         The postures.
@@ -78,14 +81,18 @@ def take_postures(
     Source:
         None (this package).
     """
-    taken: dict[str, Posture] = {}
+    taken: dict[str, Posture] = {} if log is None else dict(log.postures)
     for number, step in enumerate(steps, start=1):
+        if step.name in taken:
+            continue
         dialogue.say(f"\nPosture {number} of {len(steps)}: {step.name}\n{step.text}")
         start, said = taken.get(step.start or ""), None
         for _ in range(ATTEMPTS):
             posture, said = _attempt(tap, info, setups, step, start, dialogue, seconds)
             if posture is not None:
                 taken[step.name] = posture
+                if log is not None:
+                    log.add(posture)
                 break
             dialogue.say(f"Not taken: {said}\nOnce more.")
         else:

@@ -24,7 +24,7 @@ _UNITS = {"deg": math.pi / 180, "rad": 1.0}
 _TOP = ("format", "device_id", "rate_hz", "arm", "angle_unit", "table", "channel", "joint", "posture")
 _CHANNEL = ("sensor", "span_counts")
 _JOINT = ("name", "channel", "direction", "scale_rad_per_count", "middle_rad", "full_scale_rad")
-_POSTURE = ("name", "angles", "counts", "recording", "seconds")
+_POSTURE = ("name", "angles", "counts", "index", "recording", "seconds")
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +163,7 @@ def _posture(table: TomlTable, folder: Path, unit: float) -> tuple[Posture, list
     if "recording" in table.values:
         counts, pulses, infos = _recorded(table, folder)
     else:
-        counts = np.empty(0, dtype=np.int64)
+        counts, pulses = np.empty(0, dtype=np.int64), _index(table)
         value = table.values["counts"]
         if isinstance(value, list) and value:
             rows = value if isinstance(value[0], list) else [value]
@@ -174,6 +174,20 @@ def _posture(table: TomlTable, folder: Path, unit: float) -> tuple[Posture, list
     except ArmikError as error:
         key = "counts" if "counts" in table.values else "recording"
         raise CalibrationError(f"{table.name}: line {table.line(key)}: {error}") from None
+
+
+def _index(table: TomlTable) -> dict[int, int] | None:
+    """Registers at index pulses, by channel."""
+    given = table.values.get("index")
+    if given is None:
+        return None
+    numbers = isinstance(given, dict) and all(
+        key.isdecimal() and type(register) is int and 0 <= register <= 0xFFFF
+        for key, register in given.items()
+    )
+    if not numbers:
+        raise table.wrong("index", "expected { channel = register at the index pulse, ... }")
+    return {int(key): register for key, register in given.items()}
 
 
 def _recorded(table: TomlTable, folder: Path) -> tuple[NDArray[np.int64], dict[int, int], list[DeviceInfo]]:

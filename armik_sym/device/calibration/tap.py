@@ -9,11 +9,14 @@ from contextlib import contextmanager
 
 from armik_sym.device.channels import DeviceInfo
 from armik_sym.device.protocol import FrameParser, Sample
+from armik_sym.device.recording.diagnosis import why_no_samples
 from armik_sym.device.recording.port import DEFAULT_BAUD, Port
 from armik_sym.errors import DeviceError
 
 WAIT_FOR_FRAMES = 3.0
 """Longest time without what is waited for, in [s]: an info comes once a second."""
+
+_FIRST_BYTES = 256  # enough to see whether they are text
 
 SETTLE = 0.2
 """Time after a key was pressed that is left out: the hand moves the arm, in [s]."""
@@ -39,6 +42,7 @@ class Tap:
         self._pulses: dict[int, int] = {}
         self._collected: list[Sample] | None = None
         self._failure: DeviceError | None = None
+        self._first_bytes = b""
         self._closing = False
         self._thread = threading.Thread(target=self._listen, name="armik calibrate", daemon=True)
         self._thread.start()
@@ -116,12 +120,15 @@ class Tap:
     def _listen(self) -> None:
         while not self._closing:
             try:
-                frames = self._parser.feed(self._port.read())
+                data = self._port.read()
             except DeviceError as error:
                 with self._changed:
                     self._failure = error
                     self._changed.notify_all()
                 return
+            if len(self._first_bytes) < _FIRST_BYTES:
+                self._first_bytes += data[:_FIRST_BYTES]
+            frames = self._parser.feed(data)
             if frames:
                 with self._changed:
                     for frame in frames:
@@ -138,14 +145,10 @@ class Tap:
                 self._collected.append(frame)
 
     def _why_nothing(self) -> str:
-        counts, versions = self._parser.counts, self._parser.versions_seen - {1}
-        if versions:
-            return f"it speaks version {min(versions)} of the protocol: update armik_sym or its firmware"
-        if not counts.bytes_read:
-            return "nothing came from the device: is it switched on, is this its port?"
-        if not counts.samples + counts.infos:
-            return f"{counts.bytes_read} bytes came, but no frame: is this its port, is the baud rate right?"
-        return "the device sends too little, or does not say what it is: look at its firmware"
+        counts = self._parser.counts
+        if counts.samples:
+            return "the device sends too little, or does not say what it is: look at its firmware"
+        return why_no_samples(self._parser, counts.bytes_read, self._first_bytes, self._port.baud, self.url)
 
 
 @contextmanager

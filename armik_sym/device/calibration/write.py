@@ -28,11 +28,11 @@ def calibration_text(calibration: Calibration) -> str:
     """
     lines = [
         "# angle = direction * scale * (counts - zero); made by armik calibrate",
-        f"format = {_quoted(FORMAT)}",
+        f"format = {quoted(FORMAT)}",
         f"device_id = {calibration.device_id}",
-        f"date = {_quoted(calibration.date)}",
-        f"armik_sym_version = {_quoted(calibration.version)}",
-        f"notes = [{', '.join(map(_quoted, calibration.notes))}]",
+        f"date = {quoted(calibration.date)}",
+        f"armik_sym_version = {quoted(calibration.version)}",
+        f"notes = [{', '.join(map(quoted, calibration.notes))}]",
     ]
     for joint in calibration.joints:
         lines += ["", "[[joint]]", *_joint_lines(joint)]
@@ -55,12 +55,30 @@ def save_calibration(calibration: Calibration, path: str | Path) -> Path:
     Source:
         None (file format of this package).
     """
-    target = Path(path)
+    return replace_text(Path(path), calibration_text(calibration))
+
+
+def replace_text(target: Path, text: str) -> Path:
+    """Write a text file; it is replaced whole or not at all.
+
+    Args:
+        target: The file.
+        text: Its text.
+
+    Returns:
+        The file.
+
+    Raises:
+        CalibrationError: If it cannot be written.
+
+    Source:
+        None (bookkeeping).
+    """
     if not target.parent.is_dir():
         raise CalibrationError(f"{target}: cannot be written: there is no folder {target.parent}")
     beside = target.with_name(f".{target.name}.{os.getpid()}")
     try:
-        beside.write_text(calibration_text(calibration), encoding="utf-8", newline="\n")
+        beside.write_text(text, encoding="utf-8", newline="\n")
         beside.replace(target)
     except OSError as error:
         beside.unlink(missing_ok=True)
@@ -71,12 +89,12 @@ def save_calibration(calibration: Calibration, path: str | Path) -> Path:
 def _joint_lines(joint: JointCalibration) -> list[str]:
     quality = joint.quality
     lines = [
-        f"name = {_quoted(joint.joint)}",
+        f"name = {quoted(joint.joint)}",
         f"channel = {joint.channel}",
-        f"sensor = {_quoted(joint.kind.name.lower())}",
+        f"sensor = {quoted(joint.kind.name.lower())}",
         f"span_counts = {joint.span}",
         f"scale_rad_per_count = {joint.scale!r}  # {math.degrees(joint.scale):.6f} deg",
-        f"scale_source = {_quoted(joint.scale_source.value)}",
+        f"scale_source = {quoted(joint.scale_source.value)}",
         f"direction = {joint.direction}",
         f"zero_counts = {joint.zero!r}",
         f"middle_rad = {joint.middle!r}  # {math.degrees(joint.middle):.1f} deg",
@@ -98,6 +116,17 @@ def _joint_lines(joint: JointCalibration) -> list[str]:
     ]
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
+    """A text as TOML writes it.
+
+    Args:
+        text: The text.
+
+    Returns:
+        The same in quotation marks, escaped.
+
+    Source:
+        TOML 1.0.
+    """
     # JSON escapes are TOML's, but for the one control character that JSON lets through.
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007F")

@@ -156,7 +156,8 @@ class Collector:
             None (bookkeeping).
         """
         n = len(self._numbers)
-        counts = np.array(self._counts, dtype=np.int64).reshape(n, max(self._channels, 1))
+        channels = self._channels or (len(self._infos[0].channels) if self._infos else 0)
+        counts = np.array(self._counts, dtype=np.int64).reshape(n, channels)
         at_index = np.full_like(counts, NO_INDEX)
         for row, channel, count in self._pulses:
             at_index[row, channel] = count

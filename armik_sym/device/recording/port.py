@@ -30,6 +30,7 @@ class Port:
 
     Attributes:
         url: What was asked for.
+        baud: Bits per second.
         device: What was opened; another name than the URL if the device was plugged in elsewhere.
 
     Raises:
@@ -41,6 +42,7 @@ class Port:
 
     def __init__(self, url: str, baud: int = DEFAULT_BAUD, device: str | None = None) -> None:
         self.url = url
+        self.baud = baud
         self.device = device or url
         self._waits = _can_be_waited_for(self.device)
         try:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from armik_sym.device.channels import DeviceInfo
 from armik_sym.device.protocol import Frame, FrameParser, Sample
+from armik_sym.device.protocol.frames import VERSION
 from armik_sym.device.recording.health import SensorHealth
 from armik_sym.device.recording.sensor_warning import SensorWarning
 from armik_sym.device.recording.sequence import SequenceCounter
@@ -143,12 +144,10 @@ class Tally:
         self._health = SensorHealth(info)
 
     def _new_versions(self) -> None:
-        from armik_sym.device.protocol.frames import VERSION
-
         others = sorted(self.parser.versions_seen - self._versions - {VERSION})
         self._versions |= self.parser.versions_seen
         if others:
             self.notices(
                 f"frames of protocol version {', '.join(map(str, others))} come, this package speaks version "
-                f"{VERSION}: they are kept in the file, but not understood"
+                f"{VERSION}: they are not understood"
             )
