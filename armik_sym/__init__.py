@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from armik_sym._version import __version__
 
 if TYPE_CHECKING:
-    from armik_sym import elbow, symbolic
+    from armik_sym import device, elbow, symbolic
     from armik_sym.arm import (
         Arm,
         DHChain,
@@ -79,6 +79,7 @@ __all__ = [
     "compare",
     "compile",
     "constant_swivel",
+    "device",
     "elbow",
     "emit_c",
     "fit_arm",
@@ -130,7 +131,7 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("elbow", "symbolic"):
+    if name in ("device", "elbow", "symbolic"):
         return importlib.import_module(f"armik_sym.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'armik_sym' has no attribute {name!r}")

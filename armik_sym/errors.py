@@ -44,6 +44,18 @@ class RecordingError(ArmikError, ValueError):
     """A marker recording holds values that make no recording, or lacks what is asked of it."""
 
 
+class ProtocolError(ArmikError, ValueError):
+    """A value does not fit the frame it is to be sent in, or a device speaks another protocol."""
+
+
+class CalibrationError(ArmikError, ValueError):
+    """A calibration cannot be made, read or used: postures that leave it open, another device, a bad file."""
+
+
+class DeviceError(ArmikError, RuntimeError):
+    """A device cannot be reached, or does not do what is needed."""
+
+
 class LimitError(ArmikError, ValueError):
     """A posture leaves the range of motion, or limits contradict each other."""
 
@@ -110,6 +122,10 @@ class CompilerWarning(ArmikWarning):
 
 class CacheWarning(ArmikWarning):
     """The per-user cache folder cannot be used; compiled code lives in a temporary folder."""
+
+
+class CalibrationWarning(ArmikWarning):
+    """A device counts otherwise than its calibration says, such as after it was switched off."""
 
 
 class MotionFileWarning(ArmikWarning):

@@ -19,7 +19,9 @@ import armik_sym as ak
 REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = REPOSITORY / "armik_sym"
 SOURCES = sorted(PACKAGE.rglob("*.py"))
-EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-46-9]_*.py"))
+EXAMPLES = sorted(
+    [*(REPOSITORY / "examples").glob("0[1-46-9]_*.py"), *(REPOSITORY / "examples").glob("[1-9][0-9]_*.py")]
+)
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -123,6 +125,7 @@ LAYERS = [
     "swivel",
     "motion",
     "fitting",
+    "device",
     "solution",
     "pointwise",
     "trajectory",
@@ -138,6 +141,7 @@ MAY_USE = {
     "swivel": {"arm", "symbolic", "compiled", "motion"},
     "motion": {"arm"},
     "fitting": {"arm", "swivel", "motion"},
+    "device": {"arm", "elbow", "motion"},
     "solution": {"arm", "symbolic", "motion"},
     "pointwise": {"arm", "symbolic", "compiled", "motion", "solution"},
     "trajectory": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
@@ -153,6 +157,7 @@ MAY_USE = {
         "pointwise",
         "trajectory",
         "fitting",
+        "device",
         "comparison",
         "report",
     },

@@ -8,12 +8,15 @@ from typing import Annotated
 import typer
 
 from armik_sym._version import __version__
+from armik_sym.cli.calibrate import calibrate
 from armik_sym.cli.compare import compare
 from armik_sym.cli.convert import convert
 from armik_sym.cli.demo import demo
 from armik_sym.cli.doctor import doctor
 from armik_sym.cli.emit_c import emit_c
 from armik_sym.cli.failures import FailingGroup
+from armik_sym.cli.record import record
+from armik_sym.cli.simulate_device import simulate_device
 from armik_sym.cli.solve import solve
 
 # Plain help and plain usage errors: the same in a terminal, a pipe and a log file.
@@ -27,7 +30,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-for command in (demo, solve, compare, convert, emit_c, doctor):
+for command in (demo, solve, compare, convert, emit_c, calibrate, record, simulate_device, doctor):
     app.command(no_args_is_help=False)(command)
 
 

@@ -17,6 +17,7 @@ from armik_sym.cli.recorded import Recorded, kind_of, read_recorded
 from armik_sym.cli.recording_options import (
     Base,
     Begin,
+    Calibration,
     Cutoff,
     End,
     Fill,
@@ -39,7 +40,10 @@ _DEFAULT = ("trajectory", "pro-isade", "swivel-constant")
 def compare(
     recording: Annotated[
         Path,
-        typer.Argument(help="Markers (trc, c3d, bvh, csv) or, with --arm, joint angles (csv, mot, sto)."),
+        typer.Argument(
+            help="Markers (trc, c3d, bvh, csv), joint angles (csv, mot, sto; with --arm) or a recording of a "
+            "device (armikrec)."
+        ),
     ],
     points: Points = None,
     side: Side = None,
@@ -51,11 +55,12 @@ def compare(
     unit: Unit = None,
     begin: Begin = None,
     end: End = None,
+    calibration: Calibration = None,
     arm: Annotated[
         str | None,
         typer.Option(
             help="A name or a TOML file. Joint angles: the arm they are of, needed. Markers: the kind of arm "
-            "that is fitted (default: human)."
+            "that is fitted (default: human). Device: the one it was calibrated as (default: ehmcs)."
         ),
     ] = None,
     method: Annotated[
@@ -89,7 +94,7 @@ def compare(
             f"{recording} holds a hand path, which tells nothing of joints to compare with: use armik solve"
         )
     typed = RecordingOptions(points, side, frame, base, rom, cutoff, fill, unit, begin, end)
-    recorded = read_recorded(recording, kind, arm, typed)
+    recorded = read_recorded(recording, kind, arm, typed, calibration)
     wanted = _methods(method, recorded)
     prepare_folder(out)
     found, failed = _all(recorded, wanted, tracking, seed, chosen_backend)

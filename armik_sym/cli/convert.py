@@ -8,7 +8,9 @@ from typing import Annotated
 import typer
 
 from armik_sym.cli.console import say
+from armik_sym.cli.device_recording import convert_device_recording, is_device_recording
 from armik_sym.cli.option_checks import number_or_word, only
+from armik_sym.cli.recording_options import Calibration
 from armik_sym.errors import OptionError
 
 
@@ -17,7 +19,8 @@ def convert(
         Path,
         typer.Argument(
             metavar="IN",
-            help="Markers (.trc, .c3d, .csv, .bvh), joint angles (.mot, .sto, .csv), or an arm.",
+            help="Markers (.trc, .c3d, .csv, .bvh), joint angles (.mot, .sto, .csv), a recording of a device "
+            "(.armikrec), or an arm.",
         ),
     ],
     target: Annotated[
@@ -43,14 +46,26 @@ def convert(
     nexus: Annotated[
         bool, typer.Option("--nexus", help="Write a .csv of markers in the form of Vicon Nexus.")
     ] = False,
+    calibration: Calibration = None,
 ) -> None:
     """Write a file in another format: units and names are kept, gaps stay gaps unless --fill is given."""
     if source.exists() and target.exists() and source.samefile(target):
         raise OptionError(f"{target}: would be overwritten by itself: choose another name")
-    typed = {"--unit": unit, "--joints": joints, "--fill": fill, "--cutoff": cutoff, "--nexus": nexus or None}
+    typed = {
+        "--unit": unit,
+        "--joints": joints,
+        "--fill": fill,
+        "--cutoff": cutoff,
+        "--nexus": nexus or None,
+        "--calibration": calibration,
+    }
     if target.suffix.lower() in (".urdf", ".toml"):
         only("an arm", typed)
         _arm(source, target)
+        return
+    if is_device_recording(source):
+        only("a recording of a device", typed, ("--calibration",))
+        convert_device_recording(source, target, calibration)
         return
     from armik_sym.motion.file_kind import file_kind
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from armik_sym.cli.device_recording import even_postures, is_device_recording
 from armik_sym.cli.marker_points import check_points, own_names
 from armik_sym.cli.option_checks import number_or_word, only
 from armik_sym.cli.recording_options import RecordingOptions
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from armik_sym.motion.hand_path import HandPath
     from armik_sym.motion.joint_motion import JointMotion
 
+DEVICE_ARM = "ehmcs"
 _ENOUGH_FOR_POSES = 6
 # In the torso a shoulder moves by up to about 0.02 m (standard deviation): more is a person who moves along.
 _MOVED_ALONG = 0.03
@@ -58,14 +60,14 @@ class Recorded(NamedTuple):
         )
 
 
-def kind_of(file: Path) -> Kind:
+def kind_of(file: Path) -> Kind | Literal["device"]:
     """What a file holds; one whose ending says nothing is read as a hand path.
 
     Args:
         file: The file.
 
     Returns:
-        "markers", "motion" (joint angles) or "path" (of the hand).
+        "markers", "motion" (joint angles), "device" (what a device sent) or "path" (of the hand).
 
     Raises:
         MotionFileError: If it is missing or has no header.
@@ -77,17 +79,26 @@ def kind_of(file: Path) -> Kind:
     from armik_sym.motion.read_markers import MARKER_FILES
     from armik_sym.motion.read_motion import MOTION_FILES
 
+    if is_device_recording(file):
+        return "device"
     return file_kind(file) if file.suffix.lower() in (*MARKER_FILES, *MOTION_FILES) else "path"
 
 
-def read_recorded(file: Path, kind: Kind, arm: str | None, options: RecordingOptions) -> Recorded:
-    """What a person did, from markers or joint angles.
+def read_recorded(
+    file: Path,
+    kind: Kind | Literal["device"],
+    arm: str | None,
+    options: RecordingOptions,
+    calibration: Path | None = None,
+) -> Recorded:
+    """What a person did, from markers, joint angles or what a device sent.
 
     Args:
         file: The recording.
-        kind: "markers" or "motion".
-        arm: Name or file of the arm; of markers the kind of arm to fit, human if None.
+        kind: "markers", "motion" or "device".
+        arm: Name or file of the arm; of markers the kind of arm to fit, human if None; of a device ehmcs.
         options: What was typed about markers.
+        calibration: Calibration of the device, if typed.
 
     Returns:
         Arm, path and measured angles.
@@ -98,9 +109,13 @@ def read_recorded(file: Path, kind: Kind, arm: str | None, options: RecordingOpt
     Source:
         None (command line).
     """
+    if kind != "device" and calibration is not None:
+        raise OptionError(f"--calibration is for recordings of a device, {file} is none")
     if kind == "markers":
         return from_markers(file, arm, options)
     only(f"{file}: it holds joint angles, and the option is about markers", options.typed)
+    if kind == "device":
+        return from_device(file, arm or DEVICE_ARM, calibration)
     if arm is None:
         raise OptionError(
             f"{file} holds joint angles: say of which arm, as in --arm ehmcs or --arm my_arm.toml, to know "
@@ -170,11 +185,7 @@ def from_angles(file: Path, arm: str) -> Recorded:
     Source:
         Nguyen 2021, §4 (measured angles and end points of an exoskeleton).
     """
-    import numpy as np
-
     import armik_sym as ak
-    from armik_sym.arm.product_of_transforms import hand_pose
-    from armik_sym.motion.joint_motion import JointMotion
 
     model, motion = ak.load_arm(arm), ak.read_motion(file)
     missing = [name for name in model.joint_names if name not in motion.joint_names]
@@ -184,7 +195,39 @@ def from_angles(file: Path, arm: str) -> Recorded:
             f"its joints are needed: {', '.join(model.joint_names)}"
         )
     q = motion.q[:, [motion.joint_names.index(name) for name in model.joint_names]]
-    position, rotation = hand_pose(model.chain, q, model.lengths)
-    turned = rotation if model.dof >= _ENOUGH_FOR_POSES else None
-    path = ak.HandPath(motion.time, position, turned, f"hand of arm {model.name} in {file.name}")
-    return Recorded(file.name, model, path, JointMotion(motion.time, np.asarray(q), model.joint_names))
+    return _by_kinematics(file, model, ak.JointMotion(motion.time, q, model.joint_names))
+
+
+def from_device(file: Path, arm: str, calibration: Path | None) -> Recorded:
+    """Take what a device sent as the motion of an arm, filtered and at even times.
+
+    Args:
+        file: The recording.
+        arm: Name of the arm the device was calibrated as, or its file.
+        calibration: Calibration of the device; None: the one in the recording.
+
+    Returns:
+        Arm, path and measured angles; joints that are not measured stay at 0.
+
+    Raises:
+        CalibrationError: If there is no calibration, it is another device's, or a joint is none of the arm's.
+        MotionFileError: If the recording cannot be read.
+
+    Source:
+        Nguyen 2021, §2.1 (the endpoint from measured angles), eq. 2.
+    """
+    import armik_sym as ak
+
+    model = ak.load_arm(arm)
+    return _by_kinematics(file, model, even_postures(file, model, calibration))
+
+
+def _by_kinematics(file: Path, arm: Arm, motion: JointMotion) -> Recorded:
+    """The hand went where the joints took it; of arms with fewer than six joints its position alone."""
+    from armik_sym.arm.product_of_transforms import hand_pose
+    from armik_sym.motion.hand_path import HandPath
+
+    position, rotation = hand_pose(arm.chain, motion.q, arm.lengths)
+    turned = rotation if arm.dof >= _ENOUGH_FOR_POSES else None
+    path = HandPath(motion.time, position, turned, f"hand of arm {arm.name} in {file.name}")
+    return Recorded(file.name, arm, path, motion)

@@ -1,4 +1,4 @@
-"""Options about recorded markers, the same for every command that reads them."""
+"""Options about recordings, the same for every command that reads them."""
 
 from __future__ import annotations
 
@@ -44,6 +44,9 @@ Unit = Annotated[
 ]
 Begin = Annotated[float | None, typer.Option(help="Markers: first time to use, in s.")]
 End = Annotated[float | None, typer.Option(help="Markers: last time to use, in s.")]
+Calibration = Annotated[
+    Path | None, typer.Option(help="Device: calibration (TOML); default: the one in the recording.")
+]
 
 
 @dataclass(frozen=True)

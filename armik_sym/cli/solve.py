@@ -15,6 +15,7 @@ from armik_sym.cli.progress_bar import ProgressBar
 from armik_sym.cli.recording_options import (
     Base,
     Begin,
+    Calibration,
     Cutoff,
     End,
     Fill,
@@ -33,14 +34,17 @@ from armik_sym.cli.solve_remarks import remarks, tracking_of
 def solve(
     file: Annotated[
         Path,
-        typer.Argument(help="Hand path (csv), markers (trc, c3d, bvh, csv) or joint angles (csv, mot, sto)."),
+        typer.Argument(
+            help="Hand path (csv), markers (trc, c3d, bvh, csv), joint angles (csv, mot, sto) or a recording "
+            "of a device (armikrec)."
+        ),
     ],
     arm: Annotated[
         str | None,
         typer.Option(
-            help="Arm: a name (ehmcs, human, alfaiz) or a TOML file. Hand path: default ehmcs. Joint angles: "
-            "the arm they are of, needed. Markers: the kind of arm that is fitted to the person, with its "
-            "range of motion; default human."
+            help="Arm: a name (ehmcs, human, alfaiz) or a TOML file. Hand path, device: default ehmcs. Joint "
+            "angles: the arm they are of, needed. Markers: the kind of arm that is fitted to the person, "
+            "with its range of motion; default human."
         ),
     ] = None,
     method: Annotated[
@@ -97,6 +101,7 @@ def solve(
     unit: Unit = None,
     begin: Begin = None,
     end: End = None,
+    calibration: Calibration = None,
     lengths: Annotated[
         str | None,
         typer.Option(help="Markers: segment lengths fitted to the person, or those of --arm: fitted or arm."),
@@ -109,10 +114,10 @@ def solve(
     backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("armik_out"),
 ) -> None:
-    """Solve a hand path, given as it is, by markers of a person, or by joint angles of a known arm.
+    """Solve a hand path, given as it is, by markers of a person, by joint angles, or by a device.
 
     Markers: an arm is fitted to the person; NAME_arm.toml is that arm, NAME_fit.txt says how well it fits.
-    Joint angles: what the hand did follows from --arm, and is solved anew.
+    Joint angles, device: what the hand did follows from --arm, and is solved anew.
 
     Writes the joint angles (csv, npz), with --figures also figures (png), and prints what they are worth.
     With --n-best, NAME_solution_2.csv and so on hold the next best trajectories.
@@ -139,7 +144,7 @@ def solve(
         **{name: value for name, value in words.items() if value is not None},
     }
     typed = RecordingOptions(points, side, frame, base, rom, cutoff, fill, unit, begin, end)
-    job = read_job(file, arm, lengths, typed)
+    job = read_job(file, arm, lengths, typed, calibration)
     first = first_posture(start, job)
     chosen_tracking = tracking_of(job, method, options)
     options |= {"tracking": chosen_tracking} if chosen_tracking else {}

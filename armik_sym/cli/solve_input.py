@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from armik_sym.cli.arguments import posture
 from armik_sym.cli.option_checks import only
-from armik_sym.cli.recorded import Recorded, kind_of, read_recorded
+from armik_sym.cli.recorded import DEVICE_ARM, Recorded, kind_of, read_recorded
 from armik_sym.cli.recording_options import RecordingOptions
 from armik_sym.errors import OptionError
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from armik_sym.arm.model import Arm
     from armik_sym.motion.hand_path import HandPath
 
-_DEFAULT_ARM = "ehmcs"
 RECORDED = "recorded"
 
 
@@ -45,14 +44,21 @@ class Job(NamedTuple):
         return self.recorded is not None and self.recorded.fitted is not None
 
 
-def read_job(file: Path, arm: str | None, lengths: str | None, options: RecordingOptions) -> Job:
-    """Read what is to be solved: a hand path, markers or joint angles.
+def read_job(
+    file: Path,
+    arm: str | None,
+    lengths: str | None,
+    options: RecordingOptions,
+    calibration: Path | None = None,
+) -> Job:
+    """Read what is to be solved: a hand path, markers, joint angles or what a device sent.
 
     Args:
         file: The file.
         arm: Name or file of the arm, if one was typed.
         lengths: "fitted" or "arm", if typed.
         options: What was typed about markers.
+        calibration: Calibration of a device, if typed.
 
     Returns:
         Arm, path and where they come from.
@@ -67,13 +73,15 @@ def read_job(file: Path, arm: str | None, lengths: str | None, options: Recordin
 
     kind = kind_of(file)
     typed = {**options.typed, "--lengths": lengths}
+    if kind == "path" and calibration is not None:
+        raise OptionError(f"--calibration is for recordings of a device, {file} is none")
     if kind == "path":
         only(f"{file}: it holds a hand path, and the option is about markers", typed)
-        return Job(ak.load_arm(arm or _DEFAULT_ARM), ak.read_path(file))
-    if kind == "motion":
+        return Job(ak.load_arm(arm or DEVICE_ARM), ak.read_path(file))
+    if kind in ("motion", "device"):
         only(f"{file}: it holds joint angles, and the option is about markers", typed)
     own = _own_lengths(lengths, arm)
-    recorded = read_recorded(file, kind, arm, options)
+    recorded = read_recorded(file, kind, arm, options, calibration)
     if recorded.fitted is None:
         return Job(recorded.arm, recorded.path, recorded)
     model = recorded.arm

@@ -22,7 +22,7 @@ _TIME = "time"
 _TWO_TURNS = 4 * math.pi
 
 
-def read_joint_angles(path: str | os.PathLike[str]) -> JointMotion:
+def read_joint_angles(path: str | os.PathLike[str], joints: Sequence[str] | None = None) -> JointMotion:
     """Read joint angles from a CSV file with units in its header.
 
     One column `time [s]`, every other column a joint: `shoulder_abduction [deg]`. Units: s, ms; rad,
@@ -30,13 +30,16 @@ def read_joint_angles(path: str | os.PathLike[str]) -> JointMotion:
 
     Args:
         path: The file.
+        joints: The columns wanted, in order; None: all. Others may hold anything, as errors in what a solver
+            wrote.
 
     Returns:
-        The motion, in SI units, joints in file order.
+        The motion, in SI units, joints in file order or in that asked for.
 
     Raises:
         MotionFileError: If the file is missing, unreadable, cut off, or a column name is wrong.
         UnitError: If a unit is not declared, unknown, or contradicted by the values.
+        UnknownNameError: If a column wanted does not exist.
         HandPathError: If time does not increase; names the line.
 
     Source:
@@ -44,13 +47,13 @@ def read_joint_angles(path: str | os.PathLike[str]) -> JointMotion:
     """
     file = Path(path)
     with open_table(file) as opened:
-        joints = _joint_columns(opened)
-        allowed = {_TIME: TIME_UNITS, **dict.fromkeys(joints, ANGLE_UNITS)}
+        chosen = _joint_columns(opened, joints)
+        allowed = {_TIME: TIME_UNITS, **dict.fromkeys(chosen, ANGLE_UNITS)}
         table = opened.read(column_units(opened, allowed, _likely_unit))
-    q = table.of(joints)
-    _check_radians(opened, joints, q)
+    q = table.of(chosen)
+    _check_radians(opened, chosen, q)
     try:
-        return JointMotion(*checked_motion(table.of((_TIME,))[:, 0], q, table.place), joints)
+        return JointMotion(*checked_motion(table.of((_TIME,))[:, 0], q, table.place), chosen)
     except (HandPathError, ShapeError) as error:
         raise type(error)(f"{file}: {error}") from None
 
@@ -94,7 +97,7 @@ def write_joint_angles(
     write_table(Path(path), columns, np.column_stack([motion.time, motion.q]), comment)
 
 
-def _joint_columns(table: OpenTable) -> tuple[str, ...]:
+def _joint_columns(table: OpenTable, wanted: Sequence[str] | None) -> tuple[str, ...]:
     where = f"{table.path}: line {table.header_line}"
     joints = tuple(name for name in table.columns if name != _TIME)
     if _TIME not in table.columns or not joints:
@@ -102,6 +105,10 @@ def _joint_columns(table: OpenTable) -> tuple[str, ...]:
             f"{where} has the columns {', '.join(map(repr, table.columns))}: joint angles need 'time' and at "
             "least one joint, as in 'time [s],elbow_flexion [deg]'"
         )
+    for name in wanted or ():
+        if name not in joints:
+            raise UnknownNameError("column", name, joints)
+    joints = joints if wanted is None else tuple(wanted)
     for name in joints:
         if table.columns[name].unit in LENGTH_UNITS:
             raise UnitError(

@@ -61,14 +61,12 @@ def read_motion(
         return read_storage(file).joint_motion(joints)
     if rate is not None and unit is not None:
         return read_plain_angles(file, rate, unit).joint_motion(joints)
-    motion = read_joint_angles(file)
     if joints is None:
-        return motion
+        return read_joint_angles(file)
     wanted = column_of_joint(joints)
-    for column in wanted.values():
-        if column not in motion.joint_names:
-            raise UnknownNameError("column", column, motion.joint_names)
-    order = [motion.joint_names.index(column) for column in wanted.values()]
+    columns = tuple(dict.fromkeys(wanted.values()))
+    motion = read_joint_angles(file, columns)
+    order = [columns.index(column) for column in wanted.values()]
     return JointMotion(motion.time, motion.q[:, order], tuple(wanted))
 
 

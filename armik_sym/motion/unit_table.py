@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -109,7 +110,7 @@ class OpenTable:
         """Read the rows, one at a time, so that garbage is refused at its first line.
 
         Args:
-            units: Unit of every column.
+            units: Unit of every column that is wanted; others may hold anything, and are NaN.
 
         Returns:
             The table.
@@ -121,7 +122,7 @@ class OpenTable:
         Source:
             RFC 4180 (comma-separated values).
         """
-        order = [(name, units[name]) for name in self.columns]
+        order = [(name, units.get(name)) for name in self.columns]
         numbers, at = array("d"), array("q")
         while (line := self._lines.next_uncommented()) is not None:
             cells = self._cells(line)
@@ -129,11 +130,11 @@ class OpenTable:
                 raise self._miscounted(len(cells))
             at.append(self._lines.number)
             for cell, (name, unit) in zip(cells, order, strict=True):
-                if not is_number(cell):
+                if unit is not None and not is_number(cell):
                     raise MotionFileError(
                         f"{self.path}: line {self._lines.number}, column {name!r} {_not_a_number(cell)}"
                     )
-                numbers.append(to_si(cell, unit))
+                numbers.append(math.nan if unit is None else to_si(cell, unit))
         if not at:
             raise MotionFileError(
                 f"{self.path}: the header on line {self.header_line} is followed by no samples"
