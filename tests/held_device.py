@@ -24,7 +24,7 @@ from armik_sym.device.simulator import Encoder, Potentiometer
 
 RATE = 200.0
 SPEED = 3000.0  # [deg/s], of joints on their way
-ON_THE_WAY = 0.06  # [s], time to get there before the key is pressed
+AT_REST = 10  # frames sent at the new angles before the key is pressed
 CTRL_C = "^C"
 
 
@@ -32,7 +32,7 @@ class HeldDevice:
     """Sends frames of simulated sensors at the angles held at the moment.
 
     Attributes:
-        angles_deg: Where the joints are, in [deg]; a joint gets there within `ON_THE_WAY`.
+        angles_deg: Where the joints go, in [deg].
         shaking_deg: Standard deviation of a tremor of all joints, in [deg].
     """
 
@@ -48,6 +48,15 @@ class HeldDevice:
         self._server.settimeout(0.1)
         self.url = f"socket://127.0.0.1:{self._server.getsockname()[1]}"
         self.closing = False
+        self._client = False
+        self._at_rest = 0
+
+    def move(self, angles_deg: Sequence[float]) -> None:
+        """Move the joints; returns when whoever listens has been sent frames from there."""
+        self.angles_deg, self._at_rest = list(angles_deg), 0
+        until = time.monotonic() + 30.0
+        while self._client and self._at_rest < AT_REST and time.monotonic() < until:
+            time.sleep(0.5 / RATE)
 
     def run(self) -> None:
         """Serve one client after another until closing."""
@@ -57,17 +66,20 @@ class HeldDevice:
             except TimeoutError:
                 continue
             with client:
+                self._client = True
                 try:
                     while not self.closing:
                         client.sendall(self._frames())
                         time.sleep(1 / RATE)
                 except OSError:
+                    self._client = False
                     continue
         self._server.close()
 
     def _frames(self) -> bytes:
         goal = np.array(self.angles_deg)
         self._at += np.clip(goal - self._at, -SPEED / RATE, SPEED / RATE)
+        self._at_rest = self._at_rest + 1 if np.array_equal(self._at, goal) else 0
         angles = self._at + self.shaking_deg * self._random.standard_normal(len(goal))
         readings = [r.read(np.array([math.radians(a)])) for r, a in zip(self._readers, angles, strict=True)]
         flags = sum(bool(reading.index[0]) << k for k, reading in enumerate(readings))
@@ -102,8 +114,7 @@ class Answers(io.TextIOBase):
         text, angles = self._left.pop(0)
         if text == CTRL_C:
             raise KeyboardInterrupt
-        self._device.angles_deg = list(angles)
-        time.sleep(ON_THE_WAY)
+        self._device.move(angles)
         return f"{text}\n"
 
 
@@ -120,7 +131,7 @@ def converse(
     """Run the command `armik`; at each prompt move the joints, then type. Hands here come to rest at once."""
     output = io.StringIO()
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(output):
-        patch.setattr(tap, "SETTLE", 0.02)
+        patch.setattr(tap, "SETTLE", 0.05)
         patch.setattr(sys, "stdin", Answers(device, typed))
         with pytest.raises(SystemExit) as end:
             app(list(arguments))
