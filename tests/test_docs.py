@@ -19,7 +19,9 @@ import armik_sym as ak
 REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = REPOSITORY / "armik_sym"
 SOURCES = sorted(PACKAGE.rglob("*.py"))
-EXAMPLES = sorted((REPOSITORY / "examples").glob("0[1-46-9]_*.py"))
+EXAMPLES = sorted(
+    [*(REPOSITORY / "examples").glob("0[1-46-9]_*.py"), *(REPOSITORY / "examples").glob("1[0-9]_*.py")]
+)
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -127,6 +129,7 @@ LAYERS = [
     "pointwise",
     "trajectory",
     "comparison",
+    "servo",
     "report",
     "cli",
 ]
@@ -142,7 +145,8 @@ MAY_USE = {
     "pointwise": {"arm", "symbolic", "compiled", "motion", "solution"},
     "trajectory": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
     "comparison": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
-    "report": {"arm", "symbolic", "swivel", "motion", "solution", "comparison"},
+    "servo": {"arm", "motion"},
+    "report": {"arm", "symbolic", "compiled", "swivel", "motion", "solution", "comparison", "servo"},
     "cli": {
         "arm",
         "symbolic",
@@ -154,6 +158,7 @@ MAY_USE = {
         "trajectory",
         "fitting",
         "comparison",
+        "servo",
         "report",
     },
 }

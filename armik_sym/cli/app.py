@@ -14,6 +14,8 @@ from armik_sym.cli.demo import demo
 from armik_sym.cli.doctor import doctor
 from armik_sym.cli.emit_c import emit_c
 from armik_sym.cli.failures import FailingGroup
+from armik_sym.cli.report import report
+from armik_sym.cli.servo import servo
 from armik_sym.cli.solve import solve
 
 # Plain help and plain usage errors: the same in a terminal, a pipe and a log file.
@@ -27,7 +29,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-for command in (demo, solve, compare, convert, emit_c, doctor):
+for command in (demo, solve, compare, report, servo, convert, emit_c, doctor):
     app.command(no_args_is_help=False)(command)
 
 
