@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from armik_sym._version import __version__
 
 if TYPE_CHECKING:
-    from armik_sym import device, elbow, symbolic
+    from armik_sym import device, elbow, servo, symbolic
     from armik_sym.arm import (
         Arm,
         DHChain,
@@ -94,6 +94,7 @@ __all__ = [
     "save_arm",
     "save_urdf",
     "segment_lengths",
+    "servo",
     "solve",
     "swivel_map",
     "symbolic",
@@ -131,7 +132,7 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("device", "elbow", "symbolic"):
+    if name in ("device", "elbow", "servo", "symbolic"):
         return importlib.import_module(f"armik_sym.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'armik_sym' has no attribute {name!r}")

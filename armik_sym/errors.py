@@ -64,6 +64,18 @@ class OptionError(ArmikError, ValueError):
     """An option has a value the method cannot work with."""
 
 
+class DriveError(ArmikError, ValueError):
+    """A drive, a load or a drive file is described wrongly."""
+
+
+class TuningError(ArmikError, ValueError):
+    """No controller of the kind asked for has the bandwidth and phase margin asked for."""
+
+
+class RetimingError(ArmikError, ValueError):
+    """A motion cannot be re-timed under the limits given."""
+
+
 class UnknownNameError(ArmikError, ValueError):
     """A name that does not exist; the message lists those that do."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -154,6 +155,30 @@ def swivel_circle() -> Figure:
     return figure
 
 
+def report_page(folder: Path) -> bytes:
+    """The top of a report as a browser shows it (needs playwright and Chromium)."""
+    import shutil
+
+    from playwright.sync_api import sync_playwright
+
+    import armik_sym as ak
+
+    task = ak.load_task("drinking_lift")
+    solution = ak.solve(ak.catalog.ehmcs(), task.path, start=task.measured.q[0])
+    page_file = solution.report(folder / "report.html", measured=task.measured, servo=True, title=task.title)
+    program = shutil.which("chromium") or shutil.which("google-chrome")
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        page = browser.new_page(viewport={"width": 1180, "height": 1530})
+        page.goto(page_file.as_uri())
+        page.evaluate("armik.ready()")
+        page.evaluate("armik.setTime(1.9)")
+        page.wait_for_timeout(1000)
+        picture = page.screenshot()
+        browser.close()
+    return bytes(picture)
+
+
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
@@ -162,6 +187,8 @@ def main() -> None:
     swivel_map().savefig(IMAGES / "swivel_map.png", dpi=130)
     swivel_map_patient().savefig(IMAGES / "swivel_map_patient.png", dpi=110)
     swivel_circle().savefig(IMAGES / "swivel_circle.png", dpi=110)
+    with tempfile.TemporaryDirectory() as folder:
+        (IMAGES / "report.png").write_bytes(report_page(Path(folder)))
 
 
 if __name__ == "__main__":

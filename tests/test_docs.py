@@ -130,6 +130,7 @@ LAYERS = [
     "pointwise",
     "trajectory",
     "comparison",
+    "servo",
     "report",
     "cli",
 ]
@@ -146,7 +147,8 @@ MAY_USE = {
     "pointwise": {"arm", "symbolic", "compiled", "motion", "solution"},
     "trajectory": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
     "comparison": {"arm", "symbolic", "compiled", "swivel", "motion", "solution"},
-    "report": {"arm", "symbolic", "swivel", "motion", "solution", "comparison"},
+    "servo": {"arm", "motion"},
+    "report": {"arm", "symbolic", "compiled", "swivel", "motion", "solution", "comparison", "servo"},
     "cli": {
         "arm",
         "symbolic",
@@ -159,6 +161,7 @@ MAY_USE = {
         "fitting",
         "device",
         "comparison",
+        "servo",
         "report",
     },
 }

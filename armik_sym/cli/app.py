@@ -16,6 +16,8 @@ from armik_sym.cli.doctor import doctor
 from armik_sym.cli.emit_c import emit_c
 from armik_sym.cli.failures import FailingGroup
 from armik_sym.cli.record import record
+from armik_sym.cli.report import report
+from armik_sym.cli.servo import servo
 from armik_sym.cli.simulate_device import simulate_device
 from armik_sym.cli.solve import solve
 
@@ -30,7 +32,9 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-for command in (demo, solve, compare, convert, emit_c, calibrate, record, simulate_device, doctor):
+_SOLVING = (demo, solve, compare, report, servo, convert, emit_c)
+_DEVICE = (calibrate, record, simulate_device)
+for command in (*_SOLVING, *_DEVICE, doctor):
     app.command(no_args_is_help=False)(command)
 
 

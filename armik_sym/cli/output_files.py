@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from armik_sym.motion.joint_motion import JointMotion
     from armik_sym.solution import Solution
 
+FIGURE_FORMATS = ("png", "pdf", "svg")
+
 
 def prepare_folder(folder: Path) -> Path:
     """Create the folder for results before hours of work depend on it.
@@ -39,6 +41,26 @@ def prepare_folder(folder: Path) -> Path:
     return folder
 
 
+def figure_format_name(text: str) -> str:
+    """Check the format of figures.
+
+    Args:
+        text: What was typed.
+
+    Returns:
+        "png", "pdf" or "svg".
+
+    Raises:
+        OptionError: If it is another word.
+
+    Source:
+        None (command line).
+    """
+    if text not in FIGURE_FORMATS:
+        raise OptionError(f"--format is {text!r}: valid are {', '.join(FIGURE_FORMATS)}")
+    return text
+
+
 def write_results(
     solution: Solution,
     folder: Path,
@@ -49,6 +71,7 @@ def write_results(
     title: str | None = None,
     backend: Backend = "auto",
     figures: bool = True,
+    figure_format: str = "png",
 ) -> list[Path]:
     """Write a solution and its alternatives as data files and figures.
 
@@ -61,11 +84,13 @@ def write_results(
         title: What the motion is, for the figures.
         backend: "auto", "c" or "vm", for the swivel map.
         figures: Whether figures are drawn, too.
+        figure_format: "png", or "pdf" or "svg" with lines and text that stay sharp in print.
 
     Returns:
         The files written: `<stem>_solution.<ending>`, for the second-best trajectory
         `<stem>_solution_2.<ending>`, and so on. With figures also `<stem>_joints.png`, `<stem>_joints_2.png`
-        …, `<stem>_hand.png`, and for full poses of an arm that has a swivel map `<stem>_swivel_map.png`.
+        …, `<stem>_hand.png`, and for full poses of an arm that has a swivel map `<stem>_swivel_map.png`,
+        or with the other ending.
 
     Raises:
         MotionFileError: If a file cannot be written.
@@ -85,12 +110,12 @@ def write_results(
     for number, each in enumerate(choices, start=1):
         about = f"{title}, choice {number}" if title and number > 1 else title
         joints = solution_figure(each, measured, title=about)
-        written.append(save_figure(joints, folder / f"{stem}_joints{_rank(number)}.png"))
+        written.append(save_figure(joints, folder / f"{stem}_joints{_rank(number)}.{figure_format}"))
     hand = hand_path_figure(solution, title=title)
-    written.append(save_figure(hand, folder / f"{stem}_hand.png"))
+    written.append(save_figure(hand, folder / f"{stem}_hand.{figure_format}"))
     map_ = _swivel_map_figure(solution, measured, title, backend)
     if map_ is not None:
-        written.append(save_figure(map_, folder / f"{stem}_swivel_map.png"))
+        written.append(save_figure(map_, folder / f"{stem}_swivel_map.{figure_format}"))
     return written
 
 

@@ -10,7 +10,7 @@ import typer
 from armik_sym.cli.arguments import backend_name, only_for_trajectory, rate, settings
 from armik_sym.cli.console import say
 from armik_sym.cli.failures import NOT_OK
-from armik_sym.cli.output_files import prepare_folder, write_results
+from armik_sym.cli.output_files import figure_format_name, prepare_folder, write_results
 from armik_sym.cli.progress_bar import ProgressBar
 from armik_sym.cli.recording_options import (
     Base,
@@ -26,6 +26,7 @@ from armik_sym.cli.recording_options import (
     Side,
     Unit,
 )
+from armik_sym.cli.report import write_solution_report
 from armik_sym.cli.solve_input import first_posture, read_job
 from armik_sym.cli.solve_output import check_arm_file, write_fit
 from armik_sym.cli.solve_remarks import remarks, tracking_of
@@ -108,7 +109,13 @@ def solve(
     ] = None,
     figures: Annotated[
         bool,
-        typer.Option(help="Also draw joint angles, hand path and swivel map (png); takes longer."),
+        typer.Option(help="Also draw joint angles, hand path and swivel map; takes longer."),
+    ] = False,
+    figure_format: Annotated[
+        str, typer.Option("--format", help="Of figures: png, or pdf or svg for papers.")
+    ] = "png",
+    report: Annotated[
+        bool, typer.Option("--report", help="Also write the report, NAME_report.html; takes longer.")
     ] = False,
     seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
     backend: Annotated[str, typer.Option(help="auto, c (compiled) or vm (no compiler needed).")] = "auto",
@@ -119,14 +126,14 @@ def solve(
     Markers: an arm is fitted to the person; NAME_arm.toml is that arm, NAME_fit.txt says how well it fits.
     Joint angles, device: what the hand did follows from --arm, and is solved anew.
 
-    Writes the joint angles (csv, npz), with --figures also figures (png), and prints what they are worth.
+    Writes the joint angles (csv, npz), with --figures also figures, and prints what they are worth.
     With --n-best, NAME_solution_2.csv and so on hold the next best trajectories.
 
     Exit code 0: ok; 1: solved, but not what was asked for; 2: error.
     """
     import armik_sym as ak
 
-    chosen_backend = backend_name(backend)
+    chosen_backend, chosen_format = backend_name(backend), figure_format_name(figure_format)
     words = {"orientation": orientation, "tracking": tracking, "search": search, "n_best": n_best}
     only_for_trajectory(
         method,
@@ -161,16 +168,20 @@ def solve(
             progress=progress,
             **options,
         )
+    measured = None if job.recorded is None or job.own_lengths else job.recorded.measured
     written = write_results(
         solution,
         out,
         file.stem,
         data_formats=(".csv", ".npz"),
-        measured=None if job.recorded is None or job.own_lengths else job.recorded.measured,
+        measured=measured,
         title=file.name,
         backend=chosen_backend,
         figures=figures,
+        figure_format=chosen_format,
     )
+    if report:
+        written.append(write_solution_report(solution, out, file.stem, measured=measured, title=file.name))
     notes = remarks(job, start, chosen_tracking)
     written += write_fit(job, out, file.stem, notes)
     if job.from_markers and job.recorded is not None:

@@ -9,8 +9,10 @@ import os
 import shutil
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from armik_sym._version import __version__
 from armik_sym.compiled.cache_folder import cache_folder, temporary_folder
@@ -20,6 +22,8 @@ from armik_sym.errors import CompilerError
 _LIBRARY = "library.dll" if os.name == "nt" else "library.so"
 _RECORD = "record.json"
 _SOURCE = "source.c"
+
+_Built = TypeVar("_Built")
 
 
 @dataclass(frozen=True)
@@ -57,14 +61,45 @@ def build_library(source: str, compiler: Compiler) -> Library:
     Source:
         None (content-addressed cache).
     """
+    return _in_a_folder(lambda folder: _build_in(folder, source, compiler))
+
+
+def build_module(source: str, compiler: Compiler) -> bytes:
+    """Compile C source for something else than this process, or take it from the cache, and read it.
+
+    Args:
+        source: C source text.
+        compiler: The compiler to use.
+
+    Returns:
+        What the compiler made.
+
+    Raises:
+        CompilerError: If the compiler fails, or what it made can neither be stored nor read.
+
+    Source:
+        None (content-addressed cache, as `build_library`).
+    """
+    return _in_a_folder(lambda folder: _module_in(folder, source, compiler))
+
+
+def _in_a_folder(build: Callable[[Path], _Built]) -> _Built:
+    """Build in the cache folder, or in a temporary one where that cannot be used."""
     try:
-        return _build_in(cache_folder(), source, compiler)
+        return build(cache_folder())
     except OSError as error:
         problem = f"cannot hold compiled code ({error.strerror or error})"
     try:
-        return _build_in(temporary_folder(problem), source, compiler)
+        return build(temporary_folder(problem))
     except OSError as error:
         raise CompilerError("compiled code can neither be stored nor loaded", str(error)) from error
+
+
+def _module_in(folder: Path, source: str, compiler: Compiler) -> bytes:
+    entry = folder / _key(source, compiler)
+    if not _is_sound(entry):
+        _compile_into(entry, source, compiler)
+    return (entry / _LIBRARY).read_bytes()
 
 
 def _build_in(folder: Path, source: str, compiler: Compiler) -> Library:

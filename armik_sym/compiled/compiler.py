@@ -24,7 +24,8 @@ NATIVE = "-march=native"
 HOW_TO_GET = "install one with: pip install ziglang (any platform), or your system's gcc or clang"
 
 _CANDIDATES = ("cc", "gcc", "clang")
-_TIMEOUT = 300.0
+# Against hanging only: the first call of zig on a slow machine builds its C library, which takes minutes.
+_TIMEOUT = 900.0
 
 
 @dataclass(frozen=True)
@@ -117,9 +118,31 @@ def _find(cc: str, path: str) -> Compiler | None:
         found = _probe((executable,), "PATH") if executable else None
         if found:
             return found
-    if importlib.util.find_spec("ziglang") is not None:
-        return _probe((sys.executable, "-m", "ziglang", "cc"), "ziglang")
-    return None
+    return _ziglang()
+
+
+def find_zig() -> Compiler | None:
+    """Zig's C compiler, which compiles for every platform: the package ziglang, then zig on the path.
+
+    Returns:
+        The compiler, or None if there is none.
+
+    Source:
+        None (packaging).
+    """
+    return _find_zig(os.environ.get("PATH", ""))
+
+
+@functools.cache
+def _find_zig(path: str) -> Compiler | None:
+    executable = shutil.which("zig", path=path)
+    return _ziglang() or (_probe((executable, "cc"), "PATH") if executable else None)
+
+
+def _ziglang() -> Compiler | None:
+    if importlib.util.find_spec("ziglang") is None:
+        return None
+    return _probe((sys.executable, "-m", "ziglang", "cc"), "ziglang")
 
 
 def _probe(command: tuple[str, ...], origin: str) -> Compiler | None:

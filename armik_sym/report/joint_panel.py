@@ -53,7 +53,7 @@ def draw_joint(axes: Axes, solution: Solution, i: int, measured: JointMotion | N
     style_axes(axes, joint_title(name), "time [s]", f"{word} [{unit}]")
     margin = factor * float(solution.rom_margin[i])
     colour = FAINT if margin >= _AT_LIMIT else INK if margin >= 0 else MEASURED
-    remark(axes, _margin_words(margin, unit), colour)
+    remark(axes, margin_words(margin, unit), colour)
 
     axes.axhspan(lower, upper, color=ALLOWED, linewidth=0, zorder=0)
     for limit in (lower, upper):
@@ -67,7 +67,7 @@ def draw_joint(axes: Axes, solution: Solution, i: int, measured: JointMotion | N
     low, high = min(lower, axes.dataLim.y0), max(upper, axes.dataLim.y1)
     axes.set_ylim(low - room, high + room)
     axes.set_xlim(solution.time[0], solution.time[-1])
-    ticks = _ticks(lower, upper)
+    ticks = limit_ticks(lower, upper)
     axes.set_yticks(ticks, [f"{tick:.4g}" for tick in ticks])
 
 
@@ -87,7 +87,7 @@ def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> No
     shown = joint_unit(solution.arm, tightest)
     unit, factor = shown.name, shown.factor
     name = joint_title(solution.arm.joint_names[tightest]).lower()
-    nearest = _margin_words(factor * float(solution.rom_margin[tightest]), unit)
+    nearest = margin_words(factor * float(solution.rom_margin[tightest]), unit)
     entries: list[Line2D | Patch] = [Line2D([], [], **_SOLVED_LINE, label="solved")]
     if measured is not None:
         entries.append(Line2D([], [], **_MEASURED_LINE, label="measured"))
@@ -108,14 +108,37 @@ def draw_key(axes: Axes, solution: Solution, measured: JointMotion | None) -> No
     ).set_in_layout(False)
 
 
-def _margin_words(margin: float, unit: str) -> str:
+def margin_words(margin: float, unit: str) -> str:
+    """How much room is left to a limit, in words.
+
+    Args:
+        margin: The room, in `unit`; negative outside.
+        unit: The unit, as shown.
+
+    Returns:
+        Text such as "margin 12.0 deg".
+
+    Source:
+        None (reporting).
+    """
     if margin < 0:
         return f"outside by {-margin:.2g} {unit}"
     return f"margin {margin:.1f} {unit}" if margin >= _AT_LIMIT else "touches its limit"
 
 
-def _ticks(lower: float, upper: float) -> list[float]:
-    """Both limits, and round numbers between them that are not too near to either."""
+def limit_ticks(lower: float, upper: float) -> list[float]:
+    """Both limits, and round numbers between them that are not too near to either.
+
+    Args:
+        lower: The lower limit, in the unit of the axis.
+        upper: The upper limit.
+
+    Returns:
+        Where the axis has ticks.
+
+    Source:
+        None (reporting).
+    """
     width = upper - lower
     if width <= 0:
         return [lower]

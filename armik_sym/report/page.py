@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 from typing import Any
@@ -86,9 +87,10 @@ def headed_page(title: str, lines: list[str], size: Size, line_height: float) ->
     return figure
 
 
-def _packing(file: Path) -> dict[str, Any]:
+def _packing(ending: str) -> dict[str, Any]:
     """PNG packed lightly: hardly larger, and a good part of the time a figure takes is saved."""
-    return {"pil_kwargs": {"compress_level": 1}} if file.suffix.lower() == ".png" else {}
+    how = {".png": {"compress_level": 1}, ".webp": {"lossless": True}}
+    return {"pil_kwargs": how[ending]} if ending in how else {}
 
 
 def save_figure(figure: Figure, path: str | os.PathLike[str]) -> Path:
@@ -110,11 +112,40 @@ def save_figure(figure: Figure, path: str | os.PathLike[str]) -> Path:
     file = Path(path)
     if file.suffix.lower() not in FORMATS:
         raise MotionFileError(f"{file}: cannot draw to {file.suffix!r}: valid are {', '.join(FORMATS)}")
-    stamp = {".pdf": "CreationDate", ".svg": "Date"}.get(file.suffix.lower())
-    metadata = {stamp: None} if stamp else None
     try:
-        with mpl.rc_context(_SAVING):
-            figure.savefig(file, dpi=_RESOLUTION_DPI, facecolor="white", metadata=metadata, **_packing(file))
+        _write(figure, file, file.suffix.lower())
     except OSError as error:
         raise MotionFileError(f"{file}: cannot be written: {error.strerror or error}") from None
     return file
+
+
+def figure_bytes(figure: Figure, ending: str) -> bytes:
+    """A figure as the bytes of a file.
+
+    Args:
+        figure: The figure.
+        ending: ".pdf", ".png", ".svg" or ".webp".
+
+    Returns:
+        The bytes; the same figure gives the same bytes.
+
+    Source:
+        None (matplotlib).
+    """
+    buffer = io.BytesIO()
+    _write(figure, buffer, ending)
+    return buffer.getvalue()
+
+
+def _write(figure: Figure, target: Path | io.BytesIO, ending: str) -> None:
+    stamp = {".pdf": "CreationDate", ".svg": "Date"}.get(ending)
+    metadata = {stamp: None} if stamp else None
+    with mpl.rc_context(_SAVING):
+        figure.savefig(
+            target,
+            format=ending[1:],
+            dpi=_RESOLUTION_DPI,
+            facecolor="white",
+            metadata=metadata,
+            **_packing(ending),
+        )

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 
+_EXPONENT = re.compile(r"-?\d+(?:\.\d+)?e[+-]?\d+")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SMALLEST_WORTH_A_NUMBER = 1e-6
 
@@ -57,6 +59,30 @@ def plain(value: float) -> str:
         None (reporting).
     """
     return np.format_float_positional(value, precision=1, fractional=False, trim="-")
+
+
+def without_exponents(text: str) -> str:
+    """A text whose numbers are written out: "3.27e+04°/s" → "32700°/s", "1.6e-12°" → "0.000001°".
+
+    Args:
+        text: The text; numbers below 0.000001 are written as that bound.
+
+    Returns:
+        The text.
+
+    Source:
+        None (reporting).
+    """
+    return _EXPONENT.sub(_written_out, text)
+
+
+def _written_out(found: re.Match[str]) -> str:
+    value = float(found[0])
+    if 0 < abs(value) < _SMALLEST_WORTH_A_NUMBER:
+        return f"{'-' if value < 0 else ''}{_SMALLEST_WORTH_A_NUMBER:.6f}"
+    if abs(value) >= 1:
+        return f"{value:.0f}"
+    return np.format_float_positional(value, precision=2, fractional=False, trim="-")
 
 
 def power_of_ten(value: float, position: int | None = None) -> str:

@@ -18,6 +18,7 @@ from armik_sym.motion.storage_table import angle_table
 
 if TYPE_CHECKING:
     from armik_sym.solution.solution import Solution
+    from armik_sym.solution.verdict import Requirements
 
 
 def save(solution: Solution, path: Path) -> Path:
@@ -69,12 +70,29 @@ def _record(solution: Solution) -> dict[str, object]:
         "orientation": solution.orientation.value,
         "settings": {key: _plain(value) for key, value in solution.settings.items()},
         "seed": solution.seed,
+        "start": None if solution.start is None else np.asarray(solution.start).tolist(),
+        "requirements": _requirements(solution.requirements),
         "ok": solution.ok,
         "reasons": list(solution.reasons),
         "status": solution.status,
         "cost": solution.cost,
         "lower_bound": None if solution.bound is None else solution.bound.value,
     }
+
+
+def _requirements(need: Requirements) -> dict[str, object]:
+    """What the solution was judged by; null where there is no limit."""
+    return {
+        "position_tolerance": _finite(need.position_tolerance),
+        "rotation_tolerance": _finite(need.rotation_tolerance),
+        "start_tolerance": _finite(need.start_tolerance),
+        "max_speed": [_finite(value) for value in need.max_speed.tolist()],
+        "max_acceleration": [_finite(value) for value in need.max_acceleration.tolist()],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None
 
 
 def _plain(value: object) -> object:

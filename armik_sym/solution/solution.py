@@ -25,6 +25,9 @@ from armik_sym.symbolic import Orientation
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from armik_sym.motion.joint_motion import JointMotion
+    from armik_sym.servo import ServoCheck
+
 Array = NDArray[np.float64]
 
 
@@ -184,3 +187,44 @@ class Solution:
         from armik_sym.report.solution_figure import solution_figure
 
         return solution_figure(self)
+
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        measured: JointMotion | None = None,
+        others: Mapping[str, Solution] | None = None,
+        servo: ServoCheck | bool | None = None,
+        title: str | None = None,
+        note: str | None = None,
+    ) -> Path:
+        """Write one HTML file that shows the solution to a therapist and an engineer, without a network.
+
+        Verdict, an arm that can be turned and played, the swivel map, joint angles in their ranges, errors,
+        speeds, what the drives make of it, comparisons, and all settings.
+
+        Args:
+            path: The file, ending in .html.
+            measured: Measured joint angles; joints are matched by name.
+            others: Further solutions of the same path, by the name they get in the report.
+            servo: What the drives make of it, from `servo.check`; True to check it here with the drives of
+                the package.
+            title: What the motion is; None for arm and method.
+            note: Where the data come from; None takes the note of the path.
+
+        Returns:
+            The path written.
+
+        Raises:
+            OptionError: If something is of the wrong kind.
+            ShapeError: If another solution has other joints or samples.
+            DriveError: If `servo` is True and the drives do not fit the arm.
+            MotionFileError: If the file cannot be written.
+
+        Source:
+            None (this package).
+        """
+        from armik_sym.report.html import chapter_of, write_report
+
+        chapter = chapter_of(self, measured=measured, others=others, servo=servo, title=title, note=note)
+        return write_report(path, [chapter])

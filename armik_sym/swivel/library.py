@@ -61,18 +61,30 @@ def swivel_source() -> str:
     Source:
         None (packaging).
     """
-    constants = {
-        "ROUNDING": ROUNDING, "REACH": REACH, "POLE": POLE, "NEAR": NEAR, "PARALLEL": PARALLEL,
-        "ROUNDS": ROUNDS, "TIE": TIE,
-    }  # fmt: skip
     parts = [PRELUDE, "#include <string.h>", lanes_header(), loop_text("lanes_atan2.h")]
-    parts += [f"#define SWIVEL_{name} {value!r}" for name, value in constants.items()]
+    parts += swivel_constants()
     for name, function in swivel_functions().items():
         parts.append("static inline " + c_function(function, f"armik_{name}"))
         if fits_lanes(function):
             parts.append(lanes_function(function, f"armik_{name}"))
         parts.append(_rows(function, name))
     return "\n".join([*parts, *(loop_text(name) for name in LOOPS)])
+
+
+def swivel_constants() -> list[str]:
+    """The numbers of `swivel/constants.py` as the hand-written C knows them.
+
+    Returns:
+        Lines of C.
+
+    Source:
+        None (packaging).
+    """
+    constants = {
+        "ROUNDING": ROUNDING, "REACH": REACH, "POLE": POLE, "NEAR": NEAR, "PARALLEL": PARALLEL,
+        "ROUNDS": ROUNDS, "TIE": TIE,
+    }  # fmt: skip
+    return [f"#define SWIVEL_{name} {value!r}" for name, value in constants.items()]
 
 
 def _rows(function: ca.Function, name: str) -> str:
