@@ -65,8 +65,8 @@ def _from_table(file: Path, arm: Arm) -> ArmMotion:
         motion = read_motion(file, arm.joint_names)
     except UnknownNameError as error:
         raise OptionError(
-            f"{file} has no joint {error.name}: arm {arm.name!r} needs {', '.join(arm.joint_names)}; choose the "
-            "arm with --arm"
+            f"{file} has no joint {error.name}: arm {arm.name!r} needs {', '.join(arm.joint_names)}; choose "
+            "the arm with --arm"
         ) from None
     return _motion(file, arm, motion.time, motion.q, list(motion.joint_names))
 
