@@ -21,10 +21,12 @@ ROOMS = {
     "pointwise/": (0.0, 3.0, "one pose after another:\nPro-ISADE, LM, Al-Faiz"),
     "swivel/": (0.52, 3.0, "closed form, exact intervals,\nthe swivel map"),
     "trajectory/": (0.52, 4.0, "the whole path in one call:\nglobal search, IPOPT"),
-    "fitting/": (2.0, 4.0, "an arm and its motion\nfrom recorded points"),
-    "comparison/": (1.4, 3.0, "predicted motion\nover measured"),
+    "fitting/": (2.2, 4.0, "an arm and its motion\nfrom recorded points"),
+    "comparison/": (1.1, 3.0, "predicted motion\nover measured"),
+    "servo/": (1.57, 3.0, "can the drives follow?\nre-timing"),
+    "device/": (-0.55, 5.0, "the E-HMCS on a serial\nport: record, calibrate"),
     "solving.py": (0.1, 5.0, "solve(arm, path, method)"),
-    "report/": (1.03, 4.0, "figures"),
+    "report/": (1.1, 4.0, "figures, the page with the\narm to turn and play"),
     "cli/": (0.6, 6.0, "the command armik"),
 }
 ARROWS = [
@@ -32,19 +34,19 @@ ARROWS = [
     ("motion/", "solution/"), ("compiled/", "swivel/"), ("compiled/", "pointwise/"),
     ("swivel/", "trajectory/"), ("swivel/", "report/"), ("solution/", "trajectory/"),
     ("solution/", "pointwise/"), ("trajectory/", "solving.py"), ("pointwise/", "solving.py"),
-    ("solution/", "report/"), ("swivel/", "fitting/"), ("motion/", "fitting/"),
+    ("swivel/", "fitting/"), ("motion/", "fitting/"), ("motion/", "servo/"), ("servo/", "report/"),
     ("solution/", "comparison/"), ("comparison/", "report/"), ("solving.py", "cli/"),
-    ("report/", "cli/"), ("fitting/", "cli/"),
+    ("report/", "cli/"), ("fitting/", "cli/"), ("elbow/", "device/"), ("device/", "cli/"),
 ]  # fmt: skip
 WIDTH, HEIGHT = 0.44, 0.62
 
 
 def architecture() -> Figure:
     """The folders and who uses whom."""
-    figure = Figure(figsize=(12.5, 8.4), layout="constrained")
+    figure = Figure(figsize=(13.6, 8.4), layout="constrained")
     axes = figure.add_subplot()
     axes.set_axis_off()
-    axes.set(xlim=(-0.82, 2.25), ylim=(-0.45, 6.45))
+    axes.set(xlim=(-0.82, 2.45), ylim=(-0.45, 6.45))
     for name, (x, y, text) in ROOMS.items():
         box = FancyBboxPatch(
             (x - WIDTH / 2, y - HEIGHT / 2), WIDTH, HEIGHT,
