@@ -57,6 +57,9 @@ def test_file_round_trip_and_line_ends(tmp_path: Path) -> None:
         ("[[joint]]", "[joint]", "line 8: not valid|expected at least one table|not valid TOML"),
         ("notes = []", "notes = [1]", "line 6: notes is [1]: expected a list of texts"),
         ("date = ", "date == ", "not valid TOML: .*line 4"),
+        ("notes = []", f"notes = {20_000 * '['}", "brackets are nested too deeply|not valid TOML"),
+        ("notes = []", f"{600 * 'a.'}b = 1", "line 6 has more than 500 dots"),
+        ("notes = []", f"notes = {50_000 * '9'}", "not valid TOML: |notes is"),
     ],
 )
 def test_errors_name_file_line_key_and_what_was_expected(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from armik_sym.arm.dh import DHLink, JointType
 from armik_sym.arm.model import Arm
 from armik_sym.arm.toml_reader import ANGLE_UNITS, LENGTH_UNITS
-from armik_sym.errors import ArmFileError
+from armik_sym.arm.write_arm_file import write_arm_file
 
 _DEGREE, _MILLIMETRE = ANGLE_UNITS["deg"], LENGTH_UNITS["mm"]
 # As many decimals as people write, then more, before all digits are spelled out.
@@ -42,13 +42,7 @@ def save_arm(arm: Arm, path: str | os.PathLike[str]) -> Path:
     Source:
         None (file format of this package, see `docs/files.md`).
     """
-    file = Path(path)
-    try:
-        file.write_text(arm_text(arm), encoding="utf-8", newline="\n")
-    except OSError as error:
-        said = f"there is no folder {file.parent}" if isinstance(error, FileNotFoundError) else error.strerror
-        raise ArmFileError(f"{file}: cannot be written: {said}") from None
-    return file
+    return write_arm_file(path, arm_text(arm))
 
 
 def arm_text(arm: Arm) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from armik_sym.errors import ArmFileError, UnitError
+from armik_sym.errors import ArmFileError, ArmikError, UnitError
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -40,19 +40,38 @@ def load_toml(path: Path) -> dict[str, Any]:
     Source:
         TOML 1.0.
     """
-    text = _text(path)
+    return parse_toml(_text(path), str(path), ArmFileError)
+
+
+def parse_toml(text: str, name: str, failure: type[ArmikError]) -> dict[str, Any]:
+    """Parse TOML that may be damaged, in bounded time.
+
+    Args:
+        text: The text.
+        name: Where it comes from, beginning messages.
+        failure: The error to raise.
+
+    Returns:
+        Its content.
+
+    Raises:
+        ArmikError: The one given, if it is not TOML, or nothing like a file of this package.
+
+    Source:
+        TOML 1.0.
+    """
     # The parser takes minutes for a key of many thousand parts.
     crowded = [i for i, line in enumerate(text.split("\n"), 1) if line.count(".") > _MOST_DOTS]
     if crowded:
-        raise ArmFileError(
-            f"{path}: line {crowded[0]} has more than {_MOST_DOTS} dots, as no file of this package"
+        raise failure(
+            f"{name}: line {crowded[0]} has more than {_MOST_DOTS} dots, as no file of this package"
         )
     try:
         return dict(tomllib.loads(text))
     except RecursionError:
-        raise ArmFileError(f"{path}: brackets are nested too deeply") from None
+        raise failure(f"{name}: brackets are nested too deeply") from None
     except ValueError as error:  # not TOML, or a whole number of many thousand digits
-        raise ArmFileError(f"{path}: not valid TOML: {error}") from None
+        raise failure(f"{name}: not valid TOML: {error}") from None
 
 
 def _text(path: Path) -> str:

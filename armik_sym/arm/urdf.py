@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from armik_sym.arm.dh import DHConvention, JointType
 from armik_sym.arm.model import Arm
 from armik_sym.arm.product_of_transforms import joint_frames
-from armik_sym.errors import ArmFileError
+from armik_sym.arm.write_arm_file import write_arm_file
 
 Array = NDArray[np.float64]
 
@@ -41,13 +41,7 @@ def save_urdf(arm: Arm, path: str | os.PathLike[str]) -> Path:
     Source:
         ROS documentation, "URDF XML specification".
     """
-    file = Path(path)
-    try:
-        file.write_text(urdf_text(arm), encoding="utf-8", newline="\n")
-    except OSError as error:
-        said = f"there is no folder {file.parent}" if isinstance(error, FileNotFoundError) else error.strerror
-        raise ArmFileError(f"{file}: cannot be written: {said}") from None
-    return file
+    return write_arm_file(path, urdf_text(arm))
 
 
 def urdf_text(arm: Arm) -> str:

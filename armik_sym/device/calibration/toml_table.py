@@ -9,12 +9,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from armik_sym.arm.toml_reader import parse_toml
 from armik_sym.errors import CalibrationError
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,10 +48,7 @@ class TomlTable:
         Source:
             TOML 1.0.
         """
-        try:
-            return TomlTable(name, text, tomllib.loads(text))
-        except tomllib.TOMLDecodeError as error:
-            raise CalibrationError(f"{name}: not valid TOML: {error}") from None
+        return TomlTable(name, text, parse_toml(text, name, CalibrationError))
 
     def tables(self, key: str) -> list[TomlTable]:
         """The tables of an array, such as all [[joint]].
